@@ -38,7 +38,7 @@ class ArxEquations {
     InstrumentProducts products(const ArxEquations& instruments) const;
     /// Triangular factor of [Phi y].
     Matrix triangular_factor() const;
-    /// e = y - Phi theta, experiment by experiment; empty where a record is too short.
+    /// e = y - Phi theta, one vector per experiment; empty for an experiment that is too short.
     std::vector<Vector> errors(const VectorView& theta) const;
 
   private:
@@ -60,14 +60,15 @@ struct ArxSolution {
 /// number itself always.
 ArxSolution solve_gram(const MatrixView& gram);
 
-/// Least squares: by the Gram matrix while its condition number is below 1e3, otherwise by the triangular factor; of
-/// least scaled norm where the data do not tell the parameters apart.
+/// Solves the least-squares problem by the Gram matrix if its condition number is below 1e3, otherwise by the
+/// triangular factor. If the data do not determine the parameters uniquely, the solution is the one of least scaled
+/// norm.
 ArxSolution solve_arx(const ArxEquations& equations);
 
 /// The free run y(k) = driven(k) - a_1 y(k-1) - ... after the recorded first `known` samples of y.
 Vector free_run(const VectorView& a, const VectorView& driven, const VectorView& y, Index known);
 
-/// B u, the sum of all inputs' weighted past, with zeros before the record (N values).
+/// B u, the sum of all inputs' weighted past values, with zeros before the first sample (N values).
 Vector driven_part(const PolynomialModel& model, const MatrixView& u);
 
 }  // namespace dynlab::inline numerics

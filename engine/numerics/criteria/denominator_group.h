@@ -6,9 +6,9 @@
 
 namespace dynlab::inline numerics {
 
-/// The channels of a model that share one denominator, with the records they are to explain: the part of the problem
-/// that is one linear regression once the filters are chosen. Its parameters are a contiguous piece of the structure's
-/// theta (fixed delays): [a_1..a_n, b of each channel]. Signals are looked at where they lie; the data must outlive it.
+/// The channels of a model that share one denominator, and the data that they explain. For given filters this part of
+/// the problem is one linear regression. Its parameters are a contiguous part of the structure's theta (fixed delays):
+/// [a_1..a_n, b of each channel]. The group refers to the signals without a copy; the data must outlive it.
 class DenominatorGroup {
   public:
     DenominatorGroup(const IdData& data, const TransferStructure& structure, Index group, Hold hold_y);
@@ -16,15 +16,15 @@ class DenominatorGroup {
     Index order() const { return n_; }
     Index place() const { return place_; }  ///< of its parameters in theta
     Index parameter_count() const { return count_; }
-    Index sample_count() const;  ///< over all records
-    /// Another output for record r (experiments of the first output, then of the next) in the place of the measured
-    /// one: what is left for this group to explain.
+    Index sample_count() const;  ///< over all experiments and outputs
+    /// Replaces the measured output of one data set (index: experiments of the first output, then of the next) by y,
+    /// the part of the output that this group explains.
     void set_target(std::size_t record, const Vector& y);
     void set_weight(Index output, double weight);                   ///< of an output's squares; 1 unless set
     const std::vector<Index>& outputs() const { return outputs_; }  ///< the model's outputs it bears on
 
-    // The equations of this group's theta, summed over its records; which filters and instruments,
-    // filters/transfer_filters.h says. E: n + 1 coefficients, monic, descending powers of s.
+    // The equations of this group's theta, summed over all experiments and outputs. filters/transfer_filters.h
+    // describes the filters and the instruments. E: n + 1 coefficients, monic, descending powers of s.
 
     /// Least squares of signals filtered by gain/E (LSSVF): instruments z = phi.
     NormalEquations svf(const VectorView& E, double gain = 1) const;
@@ -34,13 +34,13 @@ class DenominatorGroup {
     /// `with_gram` also the sums of z z'.
     NormalEquations refined(const VectorView& theta, bool with_gram = false) const;
     Vector denominator(const VectorView& theta) const;  ///< A: n + 1 coefficients, monic; theta of the group
-    /// theta with unstable poles mirrored (real part to its negative); tells whether there were any.
+    /// Returns theta with unstable poles mirrored (real part to its negative); sets `any` to whether there were any.
     Vector with_stable_poles(const VectorView& theta, bool* any = nullptr) const;
 
     /// One output in one experiment.
     struct Member {
         RegressionRecord record;
-        std::vector<Index> places;  ///< in the group's theta, of each value of the record's own theta
+        std::vector<Index> places;  ///< places of the regression's parameters in the group's theta
         std::size_t output;         ///< in outputs()
     };
     /// The experiments of the first output, then of the next.

@@ -29,20 +29,20 @@ struct DrivenSignals {
 };
 
 /// Sums of products of the errors e = y - output, the sensitivities Psi of the output (the instruments) and the
-/// regressors Phi: the sensitivities with the measured outputs in the place of the simulated ones, as the equation
-/// F (y/F) = B (u/F) has them, so column j of F_i less q^-j/F_i of e.
+/// regressors Phi: the sensitivities computed with the measured instead of the simulated outputs, as in the equation F
+/// (y/F) = B (u/F). In Phi, column j of F_i is that of Psi minus q^-j/F_i e.
 struct InstrumentProducts {
     double squares = 0;                ///< e'e
     Matrix psi_psi, psi_phi, phi_phi;  ///< d x d
     Vector psi_e, phi_e;
 };
 
-/// The output sum_i B_i/F_i u_i of a discrete-time model in all experiments, one after the other, as a function of
-/// [the parameters of the orders; for each experiment its initial values; for each experiment its offset], for the
+/// The output sum_i B_i/F_i u_i of a discrete-time model in all experiments, one after the other, as a function of [the
+/// parameters of the orders; for each experiment its initial values; for each experiment its offset], for the
 /// output-error search and for the instruments of SRIV. Start conditions: zero: inputs and outputs are zero before the
-/// record; steady: at rest with the first input values; estimate: the unknown past acts through nf initial values for
-/// each input (which drive 1/F_i as pulses do), and the first head() samples, where unrecorded inputs act directly, are
-/// left out of output and target. Exact for any past. Sensitivities are exact: with x = B/F u
+/// first sample; steady: at rest with the first input values; estimate: the unknown past acts through nf initial values
+/// for each input (which drive 1/F_i as pulses do), and the first head() samples, where unrecorded inputs act directly,
+/// are left out of output and target. Exact for any past. Sensitivities are exact: with x = B/F u
 ///     dx/df_j = -q^-j/F x,   dx/db_j = q^-j/F u.
 class DiscreteOutput : public OutputErrorModel {
   public:

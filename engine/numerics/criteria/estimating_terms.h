@@ -9,7 +9,7 @@ struct CommonDenominator {
     std::vector<Vector> B;
 };
 
-/// The equation p^n y_f = phi' theta with all signals of a record filtered by gain/E, sample by sample: N and N x d.
+/// The equation p^n y_f = phi' theta of one experiment, all signals filtered by gain/E: N and N x d.
 struct FilteredEquation {
     Vector y;
     Matrix Phi;
@@ -25,14 +25,14 @@ struct EstimatingTerms {
 
 /// The terms of LSSVF (z = phi) or, with an auxiliary model `instrument`, of IVSVF: e = p^n y_f - phi' theta is the
 /// error of the equation with all signals filtered by gain/E, E monic of degree n, theta the coefficients of `model`.
-/// With v = y - sum B_j/A u_j it is e = gain A/E v, but for what the hold of y between its samples changes. For regular
-/// records and a stable model the terms are therefore the instruments filtered by gain A/E backwards in time and the
-/// output errors v, which no filter has colored.
+/// With v = y - sum B_j/A u_j the error is e = gain A/E v, except for the effect of the hold of y between samples. For
+/// regular sampling and a stable model the terms are therefore the instruments, filtered by gain A/E backwards in time,
+/// and the output errors v, which no filter has colored.
 EstimatingTerms estimating_terms(const RegressionRecord& record, const VectorView& E, double gain,
                                  const CommonDenominator& model, const CommonDenominator* instrument = nullptr);
 
-/// Those of a group at its `theta`, and of an auxiliary model with the theta `instrument`: record after record, none
-/// weighted.
+/// The terms of a group at its `theta`, with an auxiliary model of parameters `instrument`: stacked by experiment and
+/// output, unweighted.
 EstimatingTerms estimating_terms(const DenominatorGroup& group, const VectorView& E, double gain, const Vector& theta,
                                  const Vector* instrument = nullptr);
 

@@ -8,9 +8,9 @@ namespace dynlab::inline numerics {
 
 /// The frequency response of a continuous-time model B/F exp(-Td s) as a function of [q (Td)], q those of a
 /// RationalBasis, for the output-error search: the rows are the real and then the imaginary parts at the K frequencies,
-/// weighted so that their errors have variance one where `data` tell it. Exact for the way the input goes on between
-/// samples, sensitivities included. TIMES ARE COUNTED IN time_unit() HERE, one over the geometric mean of the lowest
-/// and the highest frequency, so that numbers stay near one; theta() leads back to seconds and rad/s.
+/// weighted so that their errors have variance one if `data` contain variances. The response and its sensitivities are
+/// exact for the input's behavior between samples. TIMES ARE COUNTED IN time_unit() HERE, one over the geometric mean
+/// of the lowest and the highest frequency, so that numbers stay near one; theta() leads back to seconds and rad/s.
 class FrequencyOutput : public OutputErrorModel {
   public:
     /// The basis suits a model near `start` = [a_1 .. a_n b_0 .. b_m], in time units. `least_delay` and `largest_delay`

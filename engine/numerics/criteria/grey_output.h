@@ -7,15 +7,15 @@
 
 namespace dynlab::inline numerics {
 
-/// The simulated outputs of a grey-box model on a record as functions of
+/// The simulated outputs of a grey-box model for given data, as functions of
 ///     theta = [free parameters, initial values that are estimated, experiment by experiment].
-/// Rows: experiment after experiment, in each output after output, each output times its weight. Where a simulation
-/// breaks down the outputs are NaN, which a search takes for a step too far. Not for several threads at once.
+/// Rows are stacked by experiment, and within an experiment by output; each output is multiplied by its weight. If a
+/// simulation fails, the outputs are NaN, and a search rejects the step. Not thread-safe.
 class GreyOutput final : public OutputErrorModel {
   public:
-    /// `initial`: x(t_1) of each experiment (n x experiments) in the place of the model's own, or nothing; of the
-    /// states that are estimated it is where the search begins. `parameters`: all of the model's; the fixed ones count.
-    /// Throws InvalidArgument for data of other channels than the model.
+    /// `initial`: x(t_1) of each experiment (n x experiments) instead of the model's initial states, or no value. For
+    /// estimated states it is the start of the search. `parameters`: all parameters of the model, of which the fixed
+    /// ones keep their value. Throws InvalidArgument if the channels of the data and the model differ.
     GreyOutput(const IdData& data, const GreyModel& model, const Vector& parameters, std::optional<Matrix> initial,
                const Vector& weights, double relative_tolerance);
 

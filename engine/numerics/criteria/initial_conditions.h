@@ -7,10 +7,10 @@
 
 namespace dynlab::inline numerics {
 
-/// What a simulated system did before its record begins.
+/// State of a simulated system before its first sample.
 enum class InitialState {
     kZero,      ///< "none" or "zero": at rest with zero input
-    kSteady,    ///< "steady": at rest with the record's first input value
+    kSteady,    ///< "steady": at rest with the first input value
     kEstimate,  ///< "estimate": as steady, plus a free motion whose initial values are estimated
     kAuto,      ///< "auto": whichever of these explains the output best (smallest BIC)
 };
@@ -23,9 +23,10 @@ enum class Offset {
     kAuto,      ///< "auto": none or estimate, by BIC
 };
 
-/// Where a record's signals rest. A step experiment (inputs, N x nu, that change at most once each) rests where it was
-/// before the step: the first input values, and the mean output up to the sample of the first step. Inputs that never
-/// change are a step from zero at the first sample: zero, zero. Any other record swings about its means.
+/// Operating point of the signals of one experiment. A step experiment (inputs, N x nu, that change at most once each)
+/// rests at its values before the step: the first input values, and the mean output up to the sample of the first step.
+/// Inputs that never change are a step from zero at the first sample: both are zero. For all other data the operating
+/// point is the mean of the signals.
 struct JointOperatingPoint {
     Vector inputs;  ///< nu
     double output = 0;
@@ -38,11 +39,11 @@ struct StartCondition {
     bool offset;         ///< a constant is estimated
 };
 
-/// The conditions that the options allow and the inputs (N x nu) can tell apart, with few parameters first: with a
-/// constant input a steady start is no experiment at all, and a free motion with an offset would hide the gain. Throws
-/// InvalidArgument when the options ask for such a one.
+/// Returns the conditions that the options allow and the inputs (N x nu) can distinguish, sorted by number of
+/// parameters. With a constant input a steady start contains no information, and a free motion with an offset would
+/// hide the gain. Throws InvalidArgument if the options ask for one of these.
 std::vector<StartCondition> start_conditions(const MatrixView& u, InitialState state, Offset offset);
-/// Those that the inputs of all experiments together can tell apart.
+/// Returns the conditions that the inputs of all experiments together can distinguish.
 std::vector<StartCondition> start_conditions(const IdData& data, InitialState state, Offset offset);
 
 /// "from rest at zero input, with an estimated offset" and the like, for messages.

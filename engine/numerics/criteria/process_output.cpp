@@ -11,7 +11,7 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr double kLeastTime = 1e-3;   // samples: any faster lag looks like none
-constexpr double kLargestTime = 1e6;  // records: any slower one looks like an integrator
+constexpr double kLargestTime = 1e6;  // data lengths: any slower lag looks like an integrator
 
 /// One factor of the monic denominator and its derivatives with respect to parameters.
 struct Factor {

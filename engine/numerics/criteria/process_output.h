@@ -23,7 +23,7 @@ Matrix coefficients_by_parameter(const ProcessModel& model);
 /// Its poles (the integrator's among them) and zeros, with a free delay where the process has one.
 TransferStructure transfer_structure(const ProcessStructure& structure);
 
-/// With a gain of its own, with an integrator not at all.
+/// kOwnGain without an integrator, kNothing with one.
 TransferOutput::AtRest at_rest(const ProcessStructure& structure);
 
 /// A process model's output, that of the transfer functions with its coefficients, as a function of [parameters of the

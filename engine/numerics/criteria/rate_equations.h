@@ -22,8 +22,8 @@ RateEquations derivative_equations(const IdData& data, std::size_t experiment, c
 /// fewer than 3 samples, and as library_values().
 RateEquations weak_equations(const IdData& data, std::size_t experiment, const FunctionLibrary& library, double width);
 
-/// Half a test function's length, in the time unit, for data whose changes take that long: the lag at which the
-/// mean autocorrelation of the states has fallen to a half, between 5 samples and a tenth of the longest record.
+/// Half the length of a test function, in the time unit, derived from the data: the lag at which the mean
+/// autocorrelation of the states has fallen to one half, between 5 samples and a tenth of the longest experiment.
 double usual_width(const IdData& data);
 
 }  // namespace dynlab::inline numerics

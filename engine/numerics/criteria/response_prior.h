@@ -20,7 +20,7 @@ struct ResponsePrior {
 /// K for `size` values of the response.
 Matrix prior_kernel(const ResponsePrior& prior, Index size);
 
-/// All that the marginal likelihood and the posterior ask of a record y = Phi g + e: sums of products of N rows.
+/// The sums of products over N rows from which the marginal likelihood and the posterior of y = Phi g + e follow.
 struct ResponseSums {
     Matrix gram;        ///< Phi'Phi
     Vector projection;  ///< Phi'y
@@ -32,9 +32,9 @@ struct ResponseSums {
 /// variance, whose ratio is put into `prior`.
 double prior_loss(const ResponseSums& sums, ResponsePrior& prior);
 
-/// The prior of that kernel for which y is most likely. a is tried so that the prior falls to a thousandth within 10 %
-/// to 1000 % of the response's length, then refined with r in turns. An evaluation costs n^3 operations, and nothing
-/// that grows with the record.
+/// Returns the prior of the given kernel for which y is most likely. The search tries values of a for which the prior
+/// falls to a thousandth within 10 % to 1000 % of the response's length, then refines a and r in turns. One evaluation
+/// costs n^3 operations, independent of the length of the data.
 ResponsePrior most_likely_prior(const ResponseSums& sums, ResponseKernel kernel);
 
 /// Mean and covariance of g given y, with the noise variance and c that are most likely for the prior's ratio.

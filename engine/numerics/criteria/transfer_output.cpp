@@ -13,7 +13,7 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr Index kWorthSharing = 5'000;  // samples of inputs: filters run over fewer take less than cores need to meet
-constexpr double kFastest = 1e5;        // per time unit: no record tells faster motions from none
+constexpr double kFastest = 1e5;        // per time unit: data cannot show faster motions
 
 std::vector<Index> denominators_of(const TransferStructure& structure, Index output) {
     std::vector<Index> different;

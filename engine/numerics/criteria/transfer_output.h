@@ -11,12 +11,12 @@
 
 namespace dynlab::inline numerics {
 
-/// The outputs of a continuous-time model in all experiments as a function of [parameters of the structure; for each
-/// channel its gain at rest, where it is a parameter of its own; for each experiment and output the initial values of
-/// its free motions, when estimated; for each experiment and output its offset, when estimated], for the output-error
-/// search. The rows are stacked experiment by experiment, in each output by output. TIMES ARE COUNTED IN time_unit()
-/// HERE, the sampling time or the mean step, so that numbers stay near one; seconds() leads back. Regular and irregular
-/// sampling, zoh and foh, any delay, all exact, sensitivities included.
+/// The outputs of a continuous-time model in all experiments, for the output-error search, as a function of [parameters
+/// of the structure; for each channel its gain at rest, where it is a separate parameter; for each experiment and
+/// output the initial values of its free motions, when estimated; for each experiment and output its offset, when
+/// estimated]. The rows are stacked by experiment, within an experiment by output. TIMES ARE COUNTED IN time_unit()
+/// HERE, the sampling time or the mean step, so that numbers stay near one; seconds() converts them back. Outputs and
+/// sensitivities are exact for regular and irregular sampling, zoh and foh, and any delay.
 ///
 /// With a start other than zero each channel rests at the first value of its input, so that it adds
 /// B(0)/A(0) u(0) + B/A (u - u(0)); with an estimated state each different denominator of an output adds a free
@@ -26,7 +26,7 @@ class TransferOutput : public OutputErrorModel {
     /// What a channel makes of an input that has always been there.
     enum class AtRest {
         kCoefficients,  ///< B(0)/A(0) times that input
-        kOwnGain,       ///< a gain that is a parameter of its own: the coefficients bear on changes alone
+        kOwnGain,       ///< a separate parameter for the gain: the coefficients affect changes only
         kNothing,       ///< an integrator does not rest there: inputs are taken as they are
     };
 
@@ -52,7 +52,7 @@ class TransferOutput : public OutputErrorModel {
 
     double time_unit() const { return time_unit_; }     ///< s
     const Vector& seconds() const { return seconds_; }  ///< factors that bring each parameter back to seconds
-    /// The initial values and offsets, which stand last.
+    /// Number of initial values and offsets, which are the last parameters.
     Index linear_count() const { return parameter_count() - initial_start(0, 0); }
     /// That count, over all experiments, of each output.
     Index sample_count() const { return samples_ - masked_rows() / structure_.outputs; }
@@ -65,7 +65,7 @@ class TransferOutput : public OutputErrorModel {
     Index initial_start(std::size_t experiment, Index output) const;
     Index initial_count(Index output) const;
     Index offset_index(std::size_t experiment, Index output) const;  ///< with estimated offsets only
-    Index gain_index(Index output, Index input) const;               ///< with gains of their own only
+    Index gain_index(Index output, Index input) const;               ///< with separate gains only
     bool has_own_gains() const { return own_gains_; }
     bool has_offset() const { return condition_.offset; }
     Hold hold() const { return hold_; }

@@ -48,7 +48,7 @@ IdData with_errors(const IdData& data, const PolynomialOrders& longer) {
     return extended;
 }
 
-/// Hannan and Rissanen's start, or nothing when the record is too short for the long model.
+/// Start by the method of Hannan and Rissanen; no start if the data are too short for the long model.
 std::vector<Vector> regression_start(const IdData& data, const PolynomialOrders& orders) {
     const auto inputs = static_cast<int>(orders.inputs());
     const double samples = static_cast<double>(data.sample_count());

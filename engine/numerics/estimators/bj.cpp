@@ -41,8 +41,8 @@ struct OutputErrorStart {
     std::vector<Vector> errors;
 };
 
-/// The output-error estimate that the search starts from. The beginning of a long record is enough where its model
-/// explains the whole as well as it explains the beginning.
+/// The output-error estimate from which the search starts. For long data the estimate from their beginning is used if
+/// its model explains all samples as well as the beginning.
 OutputErrorStart output_error_start(const IdData& data, const std::vector<SampledExperiment>& experiments,
                                     const PolynomialOrders& orders, const FitOptions& options) {
     constexpr Index kLong = 400000, kBeginning = 100000;

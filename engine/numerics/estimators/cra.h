@@ -12,7 +12,7 @@ struct CraOptions {
     void validate() const;
 };
 
-/// What correlation analysis gives besides the impulse response.
+/// Results of correlation analysis: the impulse response and intermediate results.
 struct CorrelationAnalysis {
     ImpulseEstimate impulse;
     Vector whitening_filter;   ///< 1 a_1 .. a_n, applied to input and output

@@ -19,7 +19,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr double kLeastVisits = 3;  // sum of a hat function over the record, for its edge to be kept
+constexpr double kLeastVisits = 3;  // least sum of a hat function over the data for which its edge is kept
 
 /// The values that the input takes, in order, when they are no more than `most`.
 std::optional<Vector> few_values(const IdData& data, Index most) {
@@ -79,8 +79,9 @@ IdData expanded(const IdData& data, const Vector& edges) {
     return result;
 }
 
-/// Where the search for one channel per hat function begins. The functions sum up to one, which a system that has come
-/// to rest does not answer, so there only what the others do beyond the last one can be told.
+/// Start of the search with one channel per hat function. The functions add up to one, to which a system at rest does
+/// not respond. From such a start, only the effects of the other functions relative to one of them are therefore
+/// identifiable.
 Vector channels_start(const IdData& hats, const TransferStructure& channels, const FitOptions& options) {
     if (options.initial_state == InitialState::kZero) return start_from_rest(hats, channels, options);
     std::vector<Index> others;
@@ -154,8 +155,8 @@ struct Product {
     Vector b, c;
 };
 
-/// The last coefficients, the gains, tell c. Those before are known up to a constant that all channels have in common,
-/// for a system at rest does not answer the sum of the hat functions, which is one.
+/// The last coefficients, the gains, determine c. The earlier coefficients are known except for a constant that all
+/// channels share, because a system at rest does not respond to the sum of the hat functions, which is one.
 Product closest_product(const Matrix& coefficients, double a_n) {
     const Index m = coefficients.rows() - 1;
     Product product{Vector::Zero(m + 1), coefficients.row(m).transpose() / a_n};

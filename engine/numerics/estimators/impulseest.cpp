@@ -60,8 +60,7 @@ LevelSignals level_signals(const Experiment& experiment) {
             experiment.y.col(0).array() - experiment.y.col(0).mean()};
 }
 
-/// Products of all rows without their means, which every experiment has of its own: they cost no more than one row each
-/// and lag.
+/// Products of all rows, with the mean of each experiment subtracted: the means cost at most one row per lag.
 ResponseSums sums_of(const IdData& data, Index n) {
     Matrix joint = Matrix::Zero(n + 2, n + 2);
     double count = 0;

@@ -10,13 +10,13 @@ namespace dynlab::inline numerics {
 ///      out of the inputs alone, which knows nothing of v;
 ///   3. an autoregression L v = e of order na + sum nb for the errors v of step 2 (of 100 at most);
 ///   4. step 2 once more with the model of step 2 for the instruments and everything filtered by L.
-/// Linear equations only, so it never fails to converge. Consistent for any v independent of the inputs, and as precise
-/// as an instrumental-variable estimate of this structure can be when v is autoregressive of that order; the
-/// covariance, sigma^2 (Z'Phi)^-1 Z'Z (Phi'Z)^-1 of the filtered ones, is right then. Poles outside the unit circle are
-/// mirrored into it for the simulation of the instruments. Nothing is assumed about what came before the record, but
-/// the instruments are simulated from rest. `noise_variance` and `loss` are those of v, `std` uses that of e. Data,
-/// orders and what throws: as arx; also a record too short for step 3. Reference: Ljung (1999), section 15.3
-/// (15.21-24).
+/// All equations are linear, so iv4 always converges. The estimate is consistent for any v independent of the inputs.
+/// If v is autoregressive of that order, it is as precise as an instrumental-variable estimate of this structure can
+/// be, and the covariance, sigma^2 (Z'Phi)^-1 Z'Z (Phi'Z)^-1 of the filtered signals, is correct. For the simulation of
+/// the instruments, poles outside the unit circle are mirrored into it. iv4 assumes nothing about values before the
+/// first sample, but simulates the instruments from rest. `noise_variance` and `loss` are those of v; `std` uses that
+/// of e. Data, orders and errors: as arx. Also throws InvalidArgument for too few samples for step 3. Reference: Ljung
+/// (1999), section 15.3 (15.21-24).
 Fit iv4(const IdData& data, const PolynomialOrders& orders);
 
 }  // namespace dynlab::inline numerics

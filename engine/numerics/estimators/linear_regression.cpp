@@ -72,7 +72,7 @@ Index distinct_values(const VectorView& x) {
 }  // namespace
 
 LinearRegression lsq(const MatrixView& Phi, const VectorView& y, RegressionMethod method) {
-    const LeastSquares orthogonal = solve_least_squares(Phi, y);  // checks sizes and values, tells the rank
+    const LeastSquares orthogonal = solve_least_squares(Phi, y);  // checks sizes and values, computes the rank
     Solution solution{orthogonal.solution, orthogonal.inverse_gram};
     if (method == RegressionMethod::kNormal) solution = solve_normal_equations(Phi, y);
     LinearRegression fit;

@@ -9,9 +9,8 @@ enum class TimeDomain { kContinuous, kDiscrete, kStatic };
 
 /// One method of the folder: where it lives, how scripts call it, and what it is for.
 struct MethodEntry {
-    /// estimators/FILE.{h,cpp}, tests/unit/estimators/test_FILE.cpp; a family has a folder of its own:
-    /// "recursive/rlssvf" stands for estimators/recursive/rlssvf.{h,cpp} and
-    /// tests/unit/estimators/recursive/test_rlssvf.cpp.
+    /// estimators/FILE.{h,cpp}, tests/unit/estimators/test_FILE.cpp; a family has a separate folder: "recursive/rlssvf"
+    /// means estimators/recursive/rlssvf.{h,cpp} and tests/unit/estimators/recursive/test_rlssvf.cpp.
     std::string file;
     std::vector<std::string> lua_names;  ///< the first one has the help page, the others may share it
     std::string title;                   ///< half a sentence

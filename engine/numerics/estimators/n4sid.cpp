@@ -102,7 +102,7 @@ struct Observability {
 Observability observability(const Matrix& R, const Sizes& sizes, SubspaceWeighting weighting) {
     const Index f = sizes.future_inputs(), p = sizes.past(), q = sizes.future_outputs();
     const auto rest = R.block(f + p, f + p, q, q);
-    // Only what the past really spans: directions of rounding size, as in noise-free records, point anywhere.
+    // Only directions that the past excites: directions of rounding size, as in noise-free data, are arbitrary.
     Vector unscale = R.middleCols(f, p).colwise().norm().transpose();
     for (double& value : unscale) value = value > 0 ? 1 / value : 1;
     const SingularValues span = jacobi_svd(R.block(f, f, p, p) * unscale.asDiagonal());
@@ -129,7 +129,7 @@ Observability observability(const Matrix& R, const Sizes& sizes, SubspaceWeighti
     return {unweigh * svd.V.leftCols(sizes.n), svd.s};
 }
 
-/// A whose eigenvalues outside the unit circle are mirrored into it; `reflected` tells whether there were any.
+/// Returns A with eigenvalues outside the unit circle mirrored into it; sets `reflected` to whether there were any.
 Matrix with_stable_eigenvalues(const Matrix& A, bool& reflected) {
     auto [values, V] = eigenvectors(A);
     reflected = values.cwiseAbs().maxCoeff() > 1;

@@ -31,18 +31,19 @@ struct SubspaceFit {
     int block_rows = 0;      ///< s
 };
 
-/// x(k+1) = A x(k) + B u(k), y(k) = C x(k) + D u(k) + v(k) by subspace identification, without any iteration. With the
-/// block rows s, the future outputs y(k)..y(k+s-1), less what the future inputs explain, are regressed on the past
-/// inputs and outputs (one orthogonal triangularisation of all of them together, in which nothing is stored that grows
-/// with the record); the n largest singular values of that regression, weighed as `weighting` says, tell the extended
-/// observability matrix [C; C A; C A^2; ..], whose shift gives A and C. B, D and the initial state of each experiment
-/// then follow by linear least squares on the simulated output. Eigenvalues outside the unit circle are mirrored into
-/// it. Consistent for any stationary v that is independent of the inputs, which must be rich enough for s; less precise
-/// than an output-error or prediction-error estimate, for which it is a start that needs no guess. No standard errors.
-/// Outputs are scaled to equal size beforehand, so that their units have no say.
-/// Data: any number of inputs, outputs and experiments, regular sampling. Throws InvalidArgument for other data, an
-/// order below 1 or not below s, a record too short or an input not persistently exciting enough for s. Reference:
-/// Verhaegen and Dewilde (1992); Verhaegen (1994), Automatica 30, 61-74; Ljung (1999), section 10.6.
+/// x(k+1) = A x(k) + B u(k), y(k) = C x(k) + D u(k) + v(k) by subspace identification, without iteration. With s block
+/// rows, n4sid subtracts from the future outputs y(k)..y(k+s-1) the part that the future inputs explain, and regresses
+/// the rest on the past inputs and outputs. One orthogonal triangularization of all of them solves this regression; its
+/// memory does not grow with the length of the data. The n largest singular values of the regression, weighted
+/// according to `weighting`, determine the extended observability matrix [C; C A; C A^2; ..], whose shift gives A and
+/// C. B, D and the initial state of each experiment then follow by linear least squares on the simulated output.
+/// Eigenvalues outside the unit circle are mirrored into it. The estimate is consistent for any stationary v that is
+/// independent of the inputs, which must be rich enough for s. It is less precise than an output-error or
+/// prediction-error estimate, for which it is a start without initial values. There are no standard errors. Outputs are
+/// first scaled to equal size, so that their units do not matter. Data: any number of inputs, outputs and experiments,
+/// regular sampling. Throws InvalidArgument for other data, an order below 1 or not below s, too few samples or an
+/// input not persistently exciting enough for s. References: Verhaegen and Dewilde (1992); Verhaegen (1994), Automatica
+/// 30, 61-74; Ljung (1999), section 10.6.
 SubspaceFit n4sid(const IdData& data, int order, const SubspaceOptions& options = {});
 
 }  // namespace dynlab::inline numerics

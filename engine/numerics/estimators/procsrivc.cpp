@@ -20,9 +20,9 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr Index kSamplesPerProcessParameter = 3;
-constexpr Index kProcessTrialSamples = 20'000;  // the start for a much longer record is found on its beginning
+constexpr Index kProcessTrialSamples = 20'000;  // for much longer data the start is found on their beginning
 constexpr double kToldApart = 0.25;             // of a time constant or gain: a larger standard error is no start
-constexpr double kCloseEvidence = 12;           // N BIC: start conditions that near are all fitted to the whole record
+constexpr double kCloseEvidence = 12;           // N BIC: start conditions this close are all fitted to all samples
 
 /// What is fitted, under any start condition.
 struct ProcessProblem {
@@ -128,7 +128,7 @@ Fit ProcessProblem::best_fit(const IdData& data, const std::vector<StartConditio
                              kSamplesPerProcessParameter});
 }
 
-/// Whether a beginning of the record tells gain and time constants well enough to start from.
+/// Whether the beginning of the data determines gain and time constants well enough for a start.
 bool is_a_start(const ProcessProblem& problem, const Fit& search) {
     if (search.termination != Termination::kConverged && search.termination != Termination::kNoProgress) return false;
     if (!(search.condition_number < kAmbiguousCondition)) return false;
@@ -142,9 +142,9 @@ bool is_a_start(const ProcessProblem& problem, const Fit& search) {
     return true;
 }
 
-/// The fits to a beginning whose conditions are worth a fit to the whole record of N samples. An initial state shows at
-/// the beginning, so that the evidence for it, n ln V of the beginning's n samples, is that of the whole; an offset
-/// shows the better the longer the record, so that there both are worth it.
+/// The fits to the beginning whose conditions justify a fit to all N samples. An initial state affects the beginning,
+/// so that the evidence for it, n ln V of the beginning's n samples, equals that of all samples. The evidence for an
+/// offset grows with the length of the data; there both conditions justify a fit.
 std::vector<Fit> worth_a_fit(const std::vector<Fit>& trials, const ProcessProblem& problem, const IdData& beginning,
                              Index N) {
     const auto evidence = [&](const Fit& trial) {
@@ -178,7 +178,7 @@ Vector likely_delays(const IdData& data, const ProcessProblem& problem) {
     return delays;
 }
 
-/// A long record: every start condition on its beginning, then those worth it on the whole, from where these ended.
+/// For long data: fits every start condition to the beginning, then the justified ones to all samples, from their ends.
 Fit best_fit_to_long(ProcessProblem problem, const IdData& data, const std::vector<StartCondition>& conditions) {
     const IdData beginning = beginning_of(data, kProcessTrialSamples);
     ProcessProblem trial = problem;
@@ -204,7 +204,7 @@ Fit best_fit_to_long(ProcessProblem problem, const IdData& data, const std::vect
     return problem.best_fit(data, worth, starts);
 }
 
-/// With an estimated start: without the beginning in which inputs from before the record still arrive.
+/// With an estimated start: leaves out the beginning, in which inputs from before the first sample still arrive.
 Fit without_masked_inputs(const ProcessProblem& problem, const IdData& data, Fit fit) {
     if (!problem.structure.delay) return fit;
     const double masked_seconds = masked_start(fit.start, fit.theta[fit.theta.size() - 1], data);

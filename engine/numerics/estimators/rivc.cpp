@@ -110,7 +110,7 @@ class Passes {
         theta_ = search_point(start, model_, model_.seconds()).cwiseMax(model_.lower()).cwiseMin(model_.upper());
     }
 
-    /// Initial values and offsets that suit the other parameters, in the place of those of the start.
+    /// Sets the initial values and offsets that match the other parameters, instead of those of the start.
     void set_linear_part() { solve_linear_part(model_, theta_); }
 
     void run() {

@@ -18,14 +18,14 @@ struct NoiseOrders {
 /// whitened with the noise model found, by Levenberg-Marquardt. Where that ends,
 ///     sum_k [D/C z(k)] [D/C (y(k) - simulated output(k))] = 0,
 /// the instrumental equations of RIVC whose instruments z are the exact sensitivities of the simulated output. The
-/// passes end when one changes neither theta nor C and D by more than the tolerance. Efficient for ARMA noise of these
-/// orders; with nc = nd = 0 it is srivc. One output; several inputs and experiments; free delays, initial states and
-/// offsets as srivc chose or found them, refined jointly; a stable start stays stable, and with an estimated start the
-/// beginning that it does not hear is left out (fit/transfer_refinement.h). The fit's noise_variance is that of e, its
-/// covariance noise_variance (Psi'Psi)^-1 with the sensitivities Psi filtered by D/C; theta and the noise model are
-/// asymptotically independent. Non-convergence and doubtful results are told in `warnings`. Throws InvalidArgument as
-/// srivc, for irregular sampling, and for several outputs. Reference: Young, Garnier and Gilson in Garnier and Wang
-/// (2008), chapter 4.
+/// passes end when one changes neither theta nor C and D by more than the tolerance. The estimate is efficient for ARMA
+/// noise of these orders; with nc = nd = 0 it is srivc. Data: one output, several inputs and experiments. Free delays,
+/// initial states and offsets start as srivc selected or estimated them, and are refined jointly. A stable start stays
+/// stable. With an estimated start, the samples at the beginning that unknown inputs still affect are left out
+/// (fit/transfer_refinement.h). The fit's noise_variance is that of e, its covariance noise_variance (Psi'Psi)^-1 with
+/// the sensitivities Psi filtered by D/C; theta and the noise model are asymptotically independent. `warnings` reports
+/// non-convergence and doubtful results. Throws InvalidArgument as srivc, for irregular sampling, and for several
+/// outputs. Reference: Young, Garnier and Gilson in Garnier and Wang (2008), chapter 4.
 Fit rivc(const IdData& data, const TransferStructure& structure, const NoiseOrders& orders,
          const FitOptions& options = {});
 

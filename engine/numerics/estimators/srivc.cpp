@@ -127,8 +127,8 @@ std::optional<double> typical_frequency(const Fit& estimate) {
     return frequency > 0 && std::isfinite(frequency) ? std::optional<double>(frequency) : std::nullopt;
 }
 
-/// Whether a poorer structure has a loss hardly larger or smaller, by its known fit or by passes on the beginning of a
-/// long record: then the passes may have ended in a bad minimum.
+/// Whether a structure of lower order has a loss that is only slightly larger, or smaller, by its known fit or by
+/// passes on the beginning of long data: then the passes may have ended in a poor minimum.
 bool gains_nothing(const Fit& estimate, const IdData& data, const FitOptions& options,
                    const std::vector<const Fit*>& lower_order) {
     const auto hardly_larger = [&](const Fit* fit) { return fit->loss < (1 + kNoGain) * estimate.loss; };

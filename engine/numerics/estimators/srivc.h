@@ -14,13 +14,13 @@ namespace dynlab::inline numerics {
 /// says.
 ///
 /// THE PASSES GIVE THE WHOLE ANSWER only for fixed delays, a start from rest without offset, and one denominator for
-/// each output. With a free delay, an estimated or steady initial state, an offset, or inputs with denominators of
-/// their own they give no more than a start: the estimate is then one Levenberg-Marquardt search of the output error
-/// over all parameters, the very same as coe makes (fit/transfer_search.h), with the same result. That search is tried
-/// as well where the passes do not settle, and its end is given if it lies lower. WHERE THE OPTIONS LEAVE THE START
-/// OPEN ("auto", the default), the fit from rest without offset stays unless the data promise more of another start
-/// (fit/start_choice.h); the message names the start that was chosen. Non-convergence and doubtful results are told in
-/// `warnings`; diagnose() computes the rest (fit/diagnostics.h). Throws InvalidArgument for unsuitable data
+/// each output. With a free delay, an estimated or steady initial state, an offset, or inputs with separate
+/// denominators the passes provide only a start. The estimate is then one Levenberg-Marquardt search of the output
+/// error over all parameters, the same search as coe (fit/transfer_search.h), with the same result. If the passes do
+/// not settle, srivc also tries that search, and returns its end if the loss is lower. IF THE OPTIONS DO NOT SPECIFY
+/// THE START ("auto", the default), srivc keeps the fit from rest without offset unless the data indicate that another
+/// start is better (fit/start_choice.h); the message names the selected start. `warnings` reports non-convergence and
+/// doubtful results; diagnose() computes the rest (fit/diagnostics.h). Throws InvalidArgument for unsuitable data
 /// (check_transfer_data) or options. References: Young and Jakeman (1980); Young, Garnier and Gilson in Garnier and
 /// Wang (2008), chapter 4. `aids`: what is known already.
 Fit srivc(const IdData& data, const TransferStructure& structure, const FitOptions& options = {},

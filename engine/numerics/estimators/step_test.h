@@ -11,7 +11,7 @@ namespace dynlab::inline numerics {
 /// One point of the graphical construction: where the response was read.
 struct ReadingPoint {
     std::string name;  ///< "settling", "overshoot", "28.3 %", "63.2 %"
-    double time;       ///< instant on the record's time axis, s
+    double time;       ///< instant on the time axis of the data, s
     double value;      ///< output there
 };
 
@@ -36,8 +36,8 @@ StepTestResult step_first_order(const IdData& data);
 
 /// K w0^2/(s^2 + 2 z w0 s + w0^2), names {"K", "z", "w0"}: from the first overshoot D1 (part of the change) and its
 /// time T1 after the step (where the cubic through the upper quarter of the overshoot is highest), z =
-/// sqrt(ln(D1)^2/(ln(D1)^2 + pi^2)) and w0 = pi/(T1 sqrt(1 - z^2)). Throws InvalidArgument when no overshoot stands out
-/// of the noise.
+/// sqrt(ln(D1)^2/(ln(D1)^2 + pi^2)) and w0 = pi/(T1 sqrt(1 - z^2)). Throws InvalidArgument if no overshoot exceeds the
+/// noise.
 StepTestResult step_second_order(const IdData& data);
 
 /// K exp(-D s)/(1 + T s), names {"K", "T", "D"}: two points (Broida). At t1 the response has risen to

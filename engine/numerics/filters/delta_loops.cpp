@@ -14,7 +14,7 @@ using Part = Lanes::Part;
 template <class Function>
 [[gnu::always_inline]] inline void for_steps(const SegmentSamples& v, const SegmentSamples& w, Index steps,
                                              const Function& f) {
-    constexpr Index kAhead = 128;  // by itself, the processor stops at the end of every page of memory
+    constexpr Index kAhead = 128;  // samples; the hardware prefetcher stops at the end of every page of memory
     Part tiles[2][2][kDeltaLanes];
     const auto bring = [&](Index from, Part(*tile)[kDeltaLanes]) __attribute__((always_inline)) {
         Lanes::gather_tile(v.samples + from, v.stride, tile[0]);
@@ -104,9 +104,10 @@ void filter_loop(const DeltaChain& first, const DeltaChain& second, const Segmen
 
 }  // namespace
 
-/// Those that regressions with one to four poles need: an output (or a signal as it is) beside an input, whose order is
-/// that of the model, or twice as much for its sensitivities, and one more for a delay between samples with inputs on
-/// straight lines, which always have the highest column; and inputs beside each other.
+/// The loops that regressions with one to four poles need. They combine an output (or an unfiltered signal) with an
+/// input, and inputs with each other. The input's order is that of the model, or twice that order for its
+/// sensitivities, and one more for a delay between samples with linearly interpolated inputs, which always have the
+/// highest column.
 DeltaLoops delta_loops(int order1, int order2, RequestedProducts requested) {
     constexpr std::true_type yes;
     constexpr std::false_type no;

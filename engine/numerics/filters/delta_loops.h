@@ -6,13 +6,13 @@
 
 namespace dynlab::inline numerics {
 
-// The loops of delta_products: segments of the record side by side in lanes, the orders of both chains known to the
-// compiler.
+// The loops of delta_products: segments of the data run side by side in lanes, and the compiler knows the orders of
+// both chains.
 
 constexpr int kDeltaLanes = Lanes::kWidth;
 
-// Of what follows, only as much is set to zero as orders n1 and n2 use: all of it would take a good part of the time of
-// a short record.
+// Only the part of the following that orders n1 and n2 use is set to zero: setting all of it would take much of the
+// time for short data.
 
 /// What both chains have come to, in all lanes.
 struct DeltaState {

@@ -91,7 +91,7 @@ double total(const Part& part) {
     return sums[0];
 }
 
-/// The samples of one chain in segments: those of the record itself, or a copy where not all lanes see the signal.
+/// The samples of one chain in segments: the original samples, or a copy if not all lanes use the signal.
 class SegmentReader {
   public:
     SegmentReader(const DeltaChain& chain, Index segment) : chain_(chain), segment_(segment) {}
@@ -111,7 +111,7 @@ class SegmentReader {
         for (int lane = 0; lane < kDeltaLanes; ++lane) copy(from + lane * segment_, count, lane);
         return {copied_[0] + kDeltaLanes, kCopied};
     }
-    /// The same of one stretch of the record, the other lanes being zero.
+    /// The same for one range of samples; the other lanes are zero.
     SegmentSamples read_one_lane(Index from, Index count) {
         for (int lane = 0; lane < kDeltaLanes; ++lane) copy(lane == 0 ? from : chain_.begin - count, count, lane);
         return {copied_[0] + kDeltaLanes, kCopied};
@@ -201,8 +201,8 @@ class DeltaRun {
         free_motion.hand_over(state_);
     }
 
-    /// Steps from .. to - 1, of all segments or, at the end of the record, of one lane; with sums, or with `free` taken
-    /// along.
+    /// Runs steps from .. to - 1, of all segments or, at the end of the data, of one lane; with sums, or with `free`
+    /// updated.
     void run(Index from, Index to, DeltaState* free) {
         for (Index k = from; k < to;) {
             Index next = to;
@@ -237,7 +237,7 @@ class DeltaRun {
         return steps;
     }
 
-    /// What is left of the record goes on in the first lane from where the last one has come to.
+    /// The first lane continues with the rest of the data, from the state of the last lane.
     void keep_last_lane() {
         const auto keep = [](Part& part) {
             const double last = part[kDeltaLanes - 1];

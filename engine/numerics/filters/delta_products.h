@@ -19,12 +19,11 @@ struct RequestedProducts {
 
 /// Only n1 + n2 + 1 products of different chains and n of a chain's own columns are summed: a difference of a product,
 ///     delta(X_j W_i) = X_(j+1) W_i + X_j W_(i+1) + X_(j+1) W_(i+1),
-/// summed over the record is what X_j W_i has grown (summation by parts), and gives the others without a division,
-/// wherever the poles are. So the work grows with the orders and not with their squares. Of each sum of orders i + j
-/// the product in the middle is summed; the norms of a signal's differences are log-convex, so that little is lost on
-/// the way to the others, and nothing where they are of one signal. The record is cut into segments that run side by
-/// side in the lanes of a machine vector. Nothing for a pair of orders that has no loop of its own
-/// (delta_loops.cpp), or a short record.
+/// summed over the data is the growth of X_j W_i (summation by parts), and gives the other products without a division,
+/// for any poles. The work therefore grows with the orders and not with their squares. Of each sum of orders i + j the
+/// middle product is summed. The norms of a signal's differences are log-convex, so that the computation of the others
+/// loses little precision, and none for products of one signal. The data are cut into segments that run side by side in
+/// the lanes of a machine vector. No value for a pair of orders without a loop (delta_loops.cpp), or for short data.
 std::optional<DeltaProducts> delta_products(const DeltaChain& first, const DeltaChain& second, Index N,
                                             RequestedProducts requested = {});
 

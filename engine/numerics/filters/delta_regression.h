@@ -5,8 +5,8 @@
 
 namespace dynlab::inline numerics {
 
-// The sums of normal_equations.h for models of one to four poles with any zeros, inputs and delays, sampled
-// regularly: by delta_products. Nothing is returned for other models and for short records.
+// The sums of normal_equations.h for models of one to four poles with any zeros, inputs and delays, regularly sampled:
+// by delta_products. No value is returned for other models and for short data.
 
 /// Signals filtered by gain/E, of the equation error.
 std::optional<NormalEquations> delta_svf_equations(const RegressionRecord& record, const VectorView& E, double gain);

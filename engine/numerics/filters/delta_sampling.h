@@ -7,8 +7,8 @@
 
 namespace dynlab::inline numerics {
 
-// Continuous-time systems as delta chains, exactly for held inputs (zoh) and inputs on straight lines (foh), with any
-// delay (s). Sampling must not take longer than a short record: nothing here is on the heap.
+// Continuous-time systems as delta chains, exactly for zero-order hold (zoh) and linear interpolation (foh), with any
+// delay (s). Sampling must be faster than filtering short data, so that nothing here uses the heap.
 
 constexpr int kMaxDeltaOutputs = kMaxDeltaOrder;
 
@@ -48,8 +48,8 @@ struct DeltaSignal {
     }
 };
 
-/// These outputs of the filter, for an input that comes `delay` seconds late. `longer`: as a chain of n + 1 columns,
-/// which inputs on straight lines with a delay between samples need.
+/// These outputs of the filter, for an input with a delay of `delay` seconds. `longer`: as a chain of n + 1 columns,
+/// which linearly interpolated inputs with a delay between samples need.
 template <int room>
 DeltaSignal delta_signal(const SampledFilter<room>& filter, const StateOutputs<room>& outputs, const SampleView& u,
                          Hold hold, double delay, bool longer);

@@ -8,7 +8,7 @@
 
 namespace dynlab::inline numerics {
 
-/// A model in front of a filter, sampled in between: its first output becomes the filter's input.
+/// A model before a filter, sampled in between: the model's first output is the filter's input.
 struct FrontModel {
     SingleInputSystem system;
     Hold hold = Hold::kZoh;  ///< of the signal
@@ -28,9 +28,9 @@ struct FilterChain {
 /// n >= highest (the n-th by identity).
 SingleInputSystem derivatives_filter(const VectorView& den, Index highest);
 
-/// M(i, j) = sum over all samples of output_left[i] output_right[j], the outputs of all chains numbered through in
-/// order and after them the sums, all filters at rest at the first sample: exactly, regularly sampled records without
-/// storing any output (filter_products.h), irregular ones by IrregularFilter.
+/// M(i, j) = sum over all samples of output_left[i] output_right[j]. The outputs of all chains are numbered in order,
+/// followed by the sums. All filters are at rest at the first sample. The result is exact. For regular sampling no
+/// output is stored (filter_products.h); for irregular sampling IrregularFilter is used.
 Matrix chain_products(const std::vector<FilterChain>& chains, const Sampling& sampling, const std::vector<Index>& left,
                       const std::vector<Index>& right, const std::vector<OutputSum>& sums = {});
 

@@ -5,7 +5,7 @@
 
 namespace dynlab::inline numerics {
 
-/// A SampledSystem driven by a signal of N samples that somebody else owns.
+/// A SampledSystem driven by a signal of N samples. The caller owns the signal.
 struct FilteredSignal {
     SampledSystem system;
     Eigen::Map<const Vector> signal;

@@ -9,9 +9,9 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kStoredSamples = 50'000;  // so few outputs are stored: quicker for short records
+constexpr Index kStoredSamples = 50'000;  // up to this count outputs are stored: faster for short data
 
-/// The chains of one record, their outputs numbered through, and which of them stand for what.
+/// The chains of one experiment, with numbered outputs, and the role of each output.
 class Equation {
   public:
     Equation(const RegressionRecord& record, Index n) : record_(record), n_(n) {}

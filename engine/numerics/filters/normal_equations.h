@@ -8,8 +8,8 @@ namespace dynlab::inline numerics {
 /// z = phi, all signals filtered by gain/E(p), E monic of degree n.
 NormalEquations svf_equations(const RegressionRecord& record, const VectorView& E, double gain = 1);
 
-/// Signals filtered by gain/E; the instrument has the auxiliary model's output x = sum B_j/A u_j, simulated exactly and
-/// then filtered with the same hold, in the place of y.
+/// Signals filtered by gain/E. The instrument uses the auxiliary model's output x = sum B_j/A u_j instead of y,
+/// simulated exactly and then filtered with the same hold.
 NormalEquations auxiliary_equations(const RegressionRecord& record, const VectorView& E, const VectorView& A,
                                     const std::vector<Vector>& B, double gain = 1);
 
@@ -19,7 +19,7 @@ NormalEquations auxiliary_equations(const RegressionRecord& record, const Vector
 NormalEquations refined_equations(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B,
                                   bool with_gram = false);
 
-/// sum (y - sum_j B_j/A_j u_j)^2, simulated from rest; every input may have a denominator of its own here.
+/// sum (y - sum_j B_j/A_j u_j)^2, simulated from rest; every input can have a separate denominator here.
 double output_error_squares(const RegressionRecord& record, const std::vector<Vector>& A, const std::vector<Vector>& B);
 
 }  // namespace dynlab::inline numerics

@@ -5,15 +5,16 @@
 
 namespace dynlab::inline numerics {
 
-using SampleView = Eigen::Map<const Vector>;  ///< samples that somebody else owns
+using SampleView = Eigen::Map<const Vector>;  ///< samples that the caller owns
 
-/// When the samples of a record were taken: every Ts seconds, or (Ts = 0) at the instants t.
+/// Sampling of one experiment: every Ts seconds, or (Ts = 0) at the instants t.
 struct Sampling {
     double Ts = 0;
     SampleView t{nullptr, 0};
 };
 
-/// One equation A(p) y = sum_j B_j(p) u_j(t - delay_j) of degree n over one record: what LSSVF, IVSVF and SRIVC solve.
+/// One equation A(p) y = sum_j B_j(p) u_j(t - delay_j) of degree n over one experiment, as LSSVF, IVSVF and SRIVC solve
+/// it.
 struct RegressionRecord {
     SampleView y;
     std::vector<SampleView> u;

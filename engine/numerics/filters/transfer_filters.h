@@ -27,8 +27,8 @@ class TransferFilters {
 
     /// z = phi, all signals filtered by gain/E.
     virtual NormalEquations svf(const RegressionRecord& record, const VectorView& E, double gain) const = 0;
-    /// Signals filtered by gain/E; in the instrument the auxiliary model's output sum B_j/A u_j, filtered with the same
-    /// hold, in the place of y.
+    /// Signals filtered by gain/E. The instrument uses the auxiliary model's output sum B_j/A u_j, filtered with the
+    /// same hold, instead of y.
     virtual NormalEquations auxiliary(const RegressionRecord& record, const VectorView& E, const VectorView& A,
                                       const std::vector<Vector>& B, double gain) const = 0;
     /// Signals filtered by 1/A, and z the sensitivities of the model's output,

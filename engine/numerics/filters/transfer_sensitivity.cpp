@@ -41,7 +41,7 @@ Matrix run(const SingleInputSystem& system, double delay, const VectorView& u, c
         .run(u, t, Vector::Zero(system.A.rows()));
 }
 
-// How steeply the straight lines between the samples of u run at the instants t - delay; zero before the first.
+// Slopes of the linear interpolation of u at the instants t - delay; zero before the first sample.
 Vector delayed_slope(const VectorView& u, const VectorView& t, double delay) {
     const Index N = u.size();
     Vector slope = Vector::Zero(N);

@@ -33,8 +33,8 @@ Matrix driven_sensitivities(const AssessedRecord& record, const TransferFunction
                          : transfer_sensitivities(G.num(), G.den(), G.delay(), u, record.t, record.hold);
 }
 
-// The same with the system at rest at the first input value before the record; a model with an integrator has no such
-// rest and starts from zero input.
+// The same for a system at rest at the first input value before the first sample; a model with an integrator has no
+// such rest and starts from zero input.
 Matrix channel_sensitivities(const AssessedRecord& record, const TransferFunction& G, Index input, InitialState state) {
     const double gain = G.dc_gain();
     const double resting = state == InitialState::kZero || !std::isfinite(gain) ? 0 : record.u(0, input);

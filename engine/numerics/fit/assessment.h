@@ -33,11 +33,11 @@ struct Assessment {
 /// output grows beyond all bounds.
 Assessment assess(const IdData& data, const Fit& fit, const ResidualOptions& options = {});
 
-/// Samples: robust errors of longer records would take longer than the fit, but for process models.
+/// Samples: robust errors of longer data would take longer than the fit, except for process models.
 inline constexpr Index kMaxAssessedSamples = 200'000;
-/// The assessment of a fit where it costs little beside it and has a meaning. Nothing for longer records, for canceled
-/// fits and those without a covariance, for difference equations without finite standard errors, and for models whose
-/// output grows beyond all bounds.
+/// Assesses a fit if the assessment is cheap compared with the fit, and meaningful. Returns no value for longer data,
+/// canceled fits, fits without a covariance, difference equations without finite standard errors, and models with
+/// unbounded output.
 std::optional<Assessment> assess_if_affordable(const IdData& data, const Fit& fit);
 
 }  // namespace dynlab::inline numerics

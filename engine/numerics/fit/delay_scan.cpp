@@ -17,9 +17,9 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kScannedSamples = 50'000;   // of a longer record, its beginning
-constexpr Index kScannedIrregular = 1'500;  // of one sampled irregularly, whose filters take several times as long
-constexpr double kAsLively = 0.5;           // inputs of a beginning that tells of the whole, by their deviations
+constexpr Index kScannedSamples = 50'000;   // of longer data, their beginning
+constexpr Index kScannedIrregular = 1'500;  // of irregularly sampled data, whose filters take several times as long
+constexpr double kAsLively = 0.5;           // least ratio of the deviations of the beginning's inputs and of all inputs
 constexpr double kScanTolerance = 1e-4;
 constexpr int kScanPasses = 5, kScanIterations = 10;  // at each delay
 constexpr Index kFreshStart = 8;                      // so many delays apart the cutoff frequencies are tried again
@@ -34,7 +34,7 @@ struct DelayPoint {
     double loss = kInfinity;
 };
 
-/// A minimum of the loss over the delay between two neighboring points, as their slopes tell it.
+/// A minimum of the loss over the delay between two neighboring points, predicted from their slopes.
 struct Valley {
     std::size_t left = 0;  ///< its points: this and the next, unless it is the last
     double loss = 0;       ///< expected there
@@ -305,7 +305,7 @@ double likely_largest_delay(const IdData& data) {
 
 namespace {
 
-/// Whether the inputs of the beginning move about as much as those of the whole record.
+/// Whether the inputs of the beginning vary about as much as all inputs.
 bool is_as_lively(const IdData& beginning, const IdData& data) {
     const auto deviation = [](const VectorView& u) { return std::sqrt((u.array() - u.mean()).square().mean()); };
     for (std::size_t e = 0; e < data.experiments.size(); ++e)

@@ -217,7 +217,7 @@ Message ambiguity(SimplerModel simpler, Number condition) {
     }
 }
 
-/// Of b_0 ... b_n the gain tells the last.
+/// Of b_0 ... b_n the gain determines the last.
 std::vector<std::string> ambiguous_names(const Fit& fit, std::size_t channel) {
     const Index inputs = fit.structure.inputs, place = static_cast<Index>(channel);
     const Index output = place / inputs, input = place % inputs;
@@ -330,7 +330,7 @@ void warn_of_doubtful_parameters(Fit& fit, SimplerModel simpler) {
         return;
     }
     std::vector<std::string> names = undetermined_parameters(fit.names, fit.theta, fit.std);
-    std::erase_if(names, [&](const std::string& name) {  // told with the reason
+    std::erase_if(names, [&](const std::string& name) {  // reported with the reason
         return std::isinf(fit.std[std::ranges::find(fit.names, name) - fit.names.begin()]) &&
                !fit.covariance.hasNaN() && fit.covariance.allFinite();
     });

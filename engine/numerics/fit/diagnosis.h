@@ -32,13 +32,13 @@ double shortest_record(const IdData& data);  ///< s, of all experiments
 struct DelayRange {
     double least = 0, largest = 0;  ///< s
 };
-/// Between which a free delay is looked for: least_delay and largest_delay; without the latter a quarter of the
-/// shortest record. Throws InvalidArgument for a largest delay that is not shorter than the shortest record.
+/// The search range of a free delay: least_delay and largest_delay; without the latter a quarter of the shortest
+/// experiment. Throws InvalidArgument for a largest delay that is not shorter than the shortest experiment.
 DelayRange delay_range(const IdData& data, const FitOptions& options);
 
 /// What is reported of a fit. Warnings are added to those of the fit.
 
-/// Beyond this condition number the parameters are not told apart.
+/// Above this condition number the data do not determine the parameters.
 inline constexpr double kAmbiguousCondition = 1e10;
 
 /// Of a search that did not come to its end.
@@ -46,7 +46,7 @@ void warn_of_search(Fit& fit, const FitOptions& options);
 /// Names of the parameters (but for delays) whose standard error is larger than their value or not a number.
 std::vector<std::string> undetermined_parameters(const std::vector<std::string>& names, const VectorView& theta,
                                                  const VectorView& std);
-/// What may help against parameters that are not told apart, apart from a richer input.
+/// Ways, other than a richer input, to deal with parameters that the data do not determine.
 enum class SimplerModel { kStructure, kFewerBins, kFewerTerms, kFewerFreeParameters };
 /// Of an ambiguous condition number, otherwise of parameters (but for delays) whose standard error is larger than their
 /// value.
@@ -76,12 +76,12 @@ void withdraw_errors(Fit& fit, const std::vector<std::string>& names);
 void withdraw_errors_at_bounds(Fit& fit, const FitOptions& options);
 /// Whether an input changes.
 bool inputs_change(const IdData& data);
-/// Of gain and delays where no input changes and the output stands on an offset: they rest on the assumption that the
-/// inputs were zero before, and a warning says so. Whether it is so.
+/// Removes the standard errors of gain and delays, with a warning, if no input changes and the output has an offset:
+/// the estimates then assume that the inputs were zero before. Returns whether this is the case.
 bool withdraw_errors_of_gain(Fit& fit, const IdData& data);
 /// Whether the delay of the channel is known only to within one sampling time: a step of a held input reaches the
 /// output through the direct term at the next sampling instant, wherever between two instants it arrives, and n + 1
-/// weights of the sampled response cannot tell n + 1 coefficients and a delay.
+/// weights of the sampled response cannot determine n + 1 coefficients and a delay.
 bool has_ambiguous_delay(const TransferFunction& G, const IdData& data);
 
 /// What a warning of an unstable model advises: nothing; the option `stable`; srivc with that option; a look at the
@@ -95,7 +95,7 @@ void describe_models(Fit& fit, UnstableAdvice advice = UnstableAdvice::kStableSr
 /// the range, and of those known only to within one sampling time of `data`.
 void describe_search(Fit& fit, const IdData& data, const FitOptions& options, const DelayRange& range);
 
-/// Whether the search came to an end by itself.
+/// Whether the search converged or could make no further progress.
 bool has_settled(const Fit& fit);
 /// "5 iterations".
 Message iteration_count(const Fit& fit);

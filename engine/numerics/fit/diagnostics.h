@@ -13,8 +13,8 @@ namespace dynlab::inline numerics {
 /// What speaks against a fit, as data. Estimators do not compute it: diagnose() does, when it is read.
 struct Diagnostics {
     std::optional<StructureAdvice> missed = {};
-    /// Whether its errors are white, and robust standard errors; none for long records (fit/assessment.h), and for fits
-    /// with a model of their noise (rivc).
+    /// Whether its errors are white, and robust standard errors; no value for long data (fit/assessment.h), and for
+    /// fits with a noise model (rivc).
     std::shared_ptr<const Assessment> assessment = {};
 
     /// A sentence for each thing that is missed.

@@ -17,7 +17,7 @@ namespace {
 constexpr int kCutoffs = 8;              // frequencies that best_cutoff_start tries
 constexpr int kTrialPasses = 4;          // passes after those that are followed
 constexpr double kFarOff = 3;            // times the smallest loss found: such starts are not followed
-constexpr Index kTrialSamples = 50'000;  // the start for a longer record is found on its beginning
+constexpr Index kTrialSamples = 50'000;  // for longer data the start is found on their beginning
 constexpr double kTrialTolerance = 1e-4;
 
 double longest_record(const IdData& data) {
@@ -26,7 +26,7 @@ double longest_record(const IdData& data) {
     return longest;
 }
 
-/// Channels with denominators of their own at one output: each fitted to its share of a common model.
+/// Channels with separate denominators at one output: each is fitted to its share of a common model.
 void start_channels(const IdData& data, const TransferStructure& structure, Index output, double lambda, Hold hold_y,
                     Vector& theta) {
     constexpr int kMostCommonPoles = 8;

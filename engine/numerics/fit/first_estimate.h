@@ -5,16 +5,16 @@
 
 namespace dynlab::inline numerics {
 
-// Where iterations and searches of continuous-time transfer functions begin when nobody names a start.
+// Start values for iterations and searches of continuous-time transfer functions without a user-defined start.
 
-/// The part of a record that start values are looked for on: its beginning, so that it starts from rest as the whole.
+/// The part of the data on which start values are searched: the beginning, so that it starts from rest like all data.
 IdData beginning_of(const IdData& data, Index most_samples);
 
 /// The data of one input with this signal in each experiment as the output.
 IdData single_channel(const IdData& data, const std::vector<Vector>& outputs, Index input);
 
-/// lssvf's theta with poles mirrored, for any structure: where an output's channels have denominators of their own, a
-/// common one of their joint order is fitted first and each channel then to its share of that model's output. NaN when
+/// lssvf's theta with poles mirrored, for any structure. If an output's channels have separate denominators, a common
+/// denominator of their joint order is fitted first, and each channel then to its share of that model's output. NaN if
 /// the equations cannot be solved.
 Vector lssvf_start(const IdData& data, const TransferStructure& structure, double lambda, Hold hold_y);
 
@@ -23,8 +23,8 @@ Vector lssvf_start(const IdData& data, const TransferStructure& structure, doubl
 /// enough for SRIVC's passes, behind which a search follows where they fail.
 enum class CutoffTrials { kValleys, kAll };
 
-/// A start that needs no guess: lssvf_start for cutoff frequencies over the band that the record can show, followed
-/// by a few passes of iterate_srivc; the theta of smallest loss. Throws InvalidArgument when none is finite.
+/// Returns a start without initial values: lssvf_start for cutoff frequencies over the band that the data can show,
+/// followed by a few passes of iterate_srivc; the theta of smallest loss. Throws InvalidArgument if no loss is finite.
 Vector best_cutoff_start(const IdData& data, const TransferStructure& structure, const FitOptions& options,
                          CutoffTrials trials = CutoffTrials::kAll);
 
@@ -32,8 +32,8 @@ Vector best_cutoff_start(const IdData& data, const TransferStructure& structure,
 Vector first_estimate(const IdData& data, const TransferStructure& structure, const FitOptions& options,
                       CutoffTrials trials = CutoffTrials::kAll);
 
-/// A start from rest for fixed delays: the first estimate at options.lambda or at the best of several cut-off
-/// frequencies, on the beginning of a long record.
+/// A start from rest for fixed delays: the first estimate at options.lambda or at the best of several cutoff
+/// frequencies, on the beginning of long data.
 Vector start_from_rest(const IdData& data, const TransferStructure& structure, const FitOptions& options,
                        CutoffTrials trials = CutoffTrials::kAll);
 

@@ -18,7 +18,7 @@ Message Fit::full_message() const {
     std::vector<Message> all;
     if (!message.empty()) all.push_back(message);
     all.insert(all.end(), warnings.begin(), warnings.end());
-    // An unstable model of a loop runs away when it is simulated by itself, and may be right.
+    // An unstable model of a loop diverges when it is simulated in open loop, and can still be correct.
     const bool stable = std::ranges::all_of(models, [](const TransferFunction& G) { return G.stable(); });
     for (Index i = 0; stable && i < fit_percent.size(); ++i) {
         if (!(fit_percent[i] < 0) || !std::isfinite(fit_percent[i])) continue;

@@ -53,8 +53,8 @@ struct FitOptions {
     std::map<std::string, double> fixed;  ///< searches: parameters that are not estimated, by name, in seconds
     Vector output_weights;                ///< of each output's errors; one over their standard deviations when empty
     bool precision = true;                ///< a search ends with the covariance
-    /// The model has an integrator besides its poles (fit/integrated_input.h): srivc, coe, rivc, oe, sriv, bj and
-    /// armax.
+    /// The model has an integrator in addition to its poles (fit/integrated_input.h): srivc, coe, rivc, oe, sriv, bj
+    /// and armax.
     bool integration = false;
     std::function<bool()> cancel;  ///< asked before every iteration, by several threads at once
 

@@ -123,8 +123,8 @@ class Search {
         return (next - theta_).cwiseAbs().cwiseQuotient(size).maxCoeff();
     }
 
-    // The sums at `next`, unless its errors are larger. Steps behind one that was taken mostly are taken, too: only
-    // behind others the output is looked at by itself first.
+    // The sums at `next`, unless its errors are larger. A step after an accepted step is mostly accepted, too: only
+    // after a rejected step the output is computed alone first.
     std::optional<OutputErrorProducts> products_below(double squares, const Vector& next) const {
         if (!model_.products_are_cheap() && !last_was_taken_) {
             if (!((y_ - model_.output_at(next)).squaredNorm() <= squares)) return std::nullopt;

@@ -24,9 +24,9 @@ Fit minimize_output_error(const OutputErrorModel& model, const VectorView& y, co
 Fit minimize_output_error(const OutputErrorModel& model, const VectorView& y, const std::vector<Vector>& starts,
                           const FitOptions& options);
 
-/// What the sensitivities J at `theta` tell of the precision of the parameters `free`: by the sums of products while
-/// these keep enough digits (a condition number below 1e3), otherwise by the QR decomposition of J itself. Without
-/// meaning, an empty matrix, where J is not finite or nothing is free.
+/// The precision of the parameters `free` that follows from the sensitivities J at `theta`: by the sums of products
+/// while these keep enough digits (a condition number below 1e3), otherwise by the QR decomposition of J itself.
+/// Undefined, with an empty matrix, if J is not finite or no parameter is free.
 struct SensitivityPrecision {
     Matrix inverse_gram;          ///< (J'J)^-1 of the free parameters
     double condition_number = 0;  ///< of J with its columns scaled to norm one

@@ -13,12 +13,13 @@ struct ProcessScan {
     Vector losses;               ///< for each delay: smallest mean square error over the grid of time constants
 };
 
-/// Lays a logarithmic grid over the time constants (and damping ratios) from a third of a time unit to three records,
-/// and an even one of at most `delay_count` delays between the bounds of `output`, whole units apart, to which those
-/// near the `likely_delays` are added; a resonance is tried at the `peaks`, too (rad per time unit). At every grid
-/// point the gain (and the gain times Tz), the initial values and the offset enter linearly and are solved for by least
-/// squares on at most 800 evenly chosen samples. The starts are the best points that differ from each other. Needs no
-/// guess from the user, and always returns one start at least. `output` has transfer_structure(structure).
+/// Tries a logarithmic grid over the time constants (and damping ratios) from a third of a time unit to three times the
+/// data's length. The delays form an even grid of at most `delay_count` points between the bounds of `output`, whole
+/// units apart, to which delays near the `likely_delays` are added. A resonance is also tried at the `peaks` (rad per
+/// time unit). At every grid point the gain (and the gain times Tz), the initial values and the offset enter linearly;
+/// least squares on at most 800 evenly spaced samples determines them. The starts are the best points that differ from
+/// each other. Needs no initial values from the user, and always returns at least one start. `output` has
+/// transfer_structure(structure).
 ProcessScan scan_process_grid(const ProcessStructure& structure, const TransferOutput& output, int delay_count,
                               const Vector& likely_delays = {}, const Vector& peaks = {});
 

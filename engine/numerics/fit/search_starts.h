@@ -7,8 +7,8 @@
 
 namespace dynlab::inline numerics {
 
-// Where a joint search for the smallest simulation error begins, besides its own starts: at solutions of poorer
-// structures, and at those found with poles exchanged for others.
+// Additional starts of a joint search for the smallest simulation error: solutions of structures with fewer parameters,
+// and solutions found after poles were exchanged for others.
 
 /// The structures that are a step poorer than one with fixed delays: a pole less in every denominator that has two, a
 /// zero less in every channel that has one, or both. Their models are limits of models of the structure.
@@ -24,9 +24,9 @@ Vector enriched(const TransferStructure& lower_order, const Vector& lower_order_
 std::vector<Vector> starts_from_lower_order(const IdData& data, const std::vector<const Fit*>& lower_order,
                                             const TransferStructure& structure, double loss);
 
-/// Where poles and zeros are added: at five and at a hundred times the mean sampling rate of the data: from the first a
-/// search finds dynamics, at the second the loss is the poorer model's. Those that cancel lie half way on a logarithmic
-/// scale from the slowest that the longest record shows.
+/// Positions of added poles and zeros: five and a hundred times the mean sampling rate of the data. From the first a
+/// search finds dynamics; at the second the loss is that of the model with fewer parameters. Canceling pairs lie half
+/// way on a logarithmic scale from the slowest that the longest experiment shows.
 class AddedRoots {
   public:
     explicit AddedRoots(const IdData& data);
@@ -48,7 +48,7 @@ struct NestedSolution {
 /// Finds solutions that are no worse than those of poorer structures, which are found in the same way first.
 class NestedSearch {
   public:
-    /// The solution for a structure with fixed delays, from these starts besides the method's own.
+    /// The solution for a structure with fixed delays, from these starts in addition to the method's.
     using Solve = std::function<NestedSolution(const TransferStructure&, const std::vector<Vector>& starts)>;
 
     NestedSearch(const IdData& data, Solve solve);
@@ -69,12 +69,12 @@ class NestedSearch {
 NestedSolution with_linear_part(const IdData& data, const TransferStructure& structure, const StartCondition& condition,
                                 const VectorView& A, double delay);
 
-/// theta of models of one input and one output in which one or two poles of `found`, a fit of the structure, have
-/// changed places: a real one for others, the two slowest or the two fastest for a pair. The rest follows by least
-/// squares. Pairs of damping 0.1 are tried at twelve frequencies over the band that the record can show, of which the
-/// valleys of the loss over the frequency count, below 1.2 times the loss of `found`; pairs of damping 0.1 and 0.02 at
-/// the peaks of the measured frequency response (signals/response_peaks.h), where the delay is free for several delays.
-/// Best first, at most four of each kind.
+/// theta of models of one input and one output in which one or two poles of `found`, a fit of the structure, are
+/// replaced: a real pole by others, the two slowest or the two fastest by a pair. The other parameters follow by least
+/// squares. Pairs of damping 0.1 are tried at twelve frequencies over the band that the data can show; the valleys of
+/// the loss over the frequency count, if below 1.2 times the loss of `found`. Pairs of damping 0.1 and 0.02 are tried
+/// at the peaks of the measured frequency response (signals/response_peaks.h), with several delays if the delay is
+/// free. Best first, at most four of each kind.
 std::vector<Vector> exchanged_poles(const IdData& data, const TransferStructure& structure, const Fit& found,
                                     const FitOptions& options);
 

@@ -17,7 +17,7 @@ namespace {
 constexpr Index kLagsOfErrors = 20;     // beyond the delay
 constexpr Index kMaxLags = 200;         // the last ones, where the delay is long
 constexpr double kFarBeyondChance = 4;  // standard deviations of chi-squared
-constexpr double kFastChanges = 0.1;    // squares of the errors' differences, of their own
+constexpr double kFastChanges = 0.1;    // squares of the errors' differences, relative to those of the errors
 constexpr double kSingular = 1e-6;      // of the input's power
 
 /// The errors of a fit, experiment by experiment.

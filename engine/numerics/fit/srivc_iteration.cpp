@@ -88,7 +88,7 @@ double largest_change(const Vector& next, const Vector& theta) {
     return change;
 }
 
-/// How far the passes still are from where they lead: the changes shrink by a factor that hardly varies.
+/// The remaining distance of the passes from their limit: the changes shrink by a nearly constant factor.
 double change_to_come(double change, double last_change) {
     const double factor = std::max(kLeastContraction, change / last_change);
     return factor < kContractionLimit ? change * factor / (1 - factor) : kInfinity;

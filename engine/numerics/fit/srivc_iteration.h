@@ -25,12 +25,13 @@ struct SrivcExtras {
 
 /// The iteration of SRIVC for fixed delays, from rest: in every pass each denominator group solves
 ///     sum_k z(k) (p^n y_f - phi' theta) = 0,
-/// signals filtered by 1/A of the pass before, z the exact sensitivities of the simulated output; unstable poles are
-/// mirrored. Where channels of one output have different denominators, each group explains what the others leave over
-/// (back-fitting). It has converged when no parameter changes by more than tolerance of itself, judged before poles are
-/// mirrored, or when all changes still to come are no more than that: they shrink by a nearly constant factor, taken
-/// from the last two, but no less than 1/20. A pass that hardly gains on the one before it and raises the loss is
-/// shortened. Without convergence the pass of smallest loss is given.
+/// with signals filtered by 1/A of the previous pass, and z the exact sensitivities of the simulated output; unstable
+/// poles are mirrored. If channels of one output have different denominators, each group explains the part of the
+/// output that the others leave (back-fitting). The iteration converges when no parameter changes by more than
+/// tolerance relative to its value, checked before poles are mirrored. It also converges when all remaining changes are
+/// below that limit: they shrink by a nearly constant factor, estimated from the last two, but at least 1/20. A pass
+/// with little progress over the previous one that raises the loss is shortened. Without convergence the result is the
+/// pass of smallest loss.
 SrivcSolution iterate_srivc(const IdData& data, const TransferStructure& structure, const Vector& start,
                             const FitOptions& options, const SrivcExtras& extras = {});
 

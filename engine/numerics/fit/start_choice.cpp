@@ -75,14 +75,14 @@ struct LinearModel {
     Matrix J;
     Vector errors;
     double least;                ///< sum of squares that is rounding
-    std::vector<Index> lengths;  ///< of the records whose rows stand one behind the other
+    std::vector<Index> lengths;  ///< of the experiments whose rows are stacked
     Columns own, motions, constants;
 };
 
 /// What one Gauss-Newton step gains with further values.
 class StartLookAhead {
   public:
-    /// The whole record is so many times as long as what is looked at.
+    /// Computes the scaled sums of products of the model's J and errors.
     explicit StartLookAhead(LinearModel model) : model_(std::move(model)) {
         const Index d = model_.J.cols();
         const Matrix sums = tall_gram(model_.J, model_.errors);

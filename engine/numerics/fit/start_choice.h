@@ -31,8 +31,8 @@ struct StartTrials {
     std::function<Fit(const FitOptions& options)> among_all;
 };
 
-/// The fit under the start condition that is chosen as told above; that of `among_all` where the options are not open,
-/// or where a fit from rest is refused (InvalidArgument).
+/// The fit under the start condition selected as described above; that of `among_all` if the options specify the start,
+/// or if a fit from rest throws InvalidArgument.
 Fit with_chosen_start(const IdData& data, const FitOptions& options, const StartTrials& trials);
 
 /// Noise that drifts imitates constants and movements of the simulation, by whose error the start was chosen. With such

@@ -127,7 +127,7 @@ class LookAhead {
         }
     }
 
-    /// Of the whole record, when the parameters and these values make their step.
+    /// Of all data, after a step of the parameters and these values.
     Explanation left(const Places& some, const Places& more) const {
         Places all = own_;
         all.insert(all.end(), some.begin(), some.end());
@@ -185,7 +185,7 @@ struct Question {
     /// The search that a user's structure leads to; nothing where the data do not allow it.
     std::optional<Fit> fit_of(const TransferStructure& structure) const {
         FitOptions how = options;
-        how.extend_iterations = false;  // what settles that late is told apart from the present fit by chance alone
+        how.extend_iterations = false;  // only chance separates such a late result from the fit
         how.integration = false;
         how.fixed.clear();
         how.output_weights.resize(0);
@@ -270,7 +270,7 @@ std::optional<StructureAdvice> gain_on(const IdData& data, const Question& asked
         .code = code, .option = option, .fit_percent = present.fit(), .better_fit_percent = found.fit()};
 }
 
-/// Whether the same structure does better without the straight lines of input and output.
+/// Whether the same structure fits better after linear detrending of input and output.
 std::optional<StructureAdvice> missed_line(const Question& asked, const Explanation& present) {
     if (!may_miss_line(asked)) return std::nullopt;
     return gain_on(detrend(asked.record, TrendKind::kLinear), asked, present, StructureAdviceCode::kLine, "detrend",
@@ -331,7 +331,7 @@ std::optional<StructureAdvice> missed_by_output(const IdData& data, const Fit& g
     return best;
 }
 
-/// The fit of one output by itself.
+/// The fit of one output alone.
 Fit fit_of_output(const Fit& fit, const OutputProblem& problem, Index output) {
     Fit own;
     own.structure = problem.structure;

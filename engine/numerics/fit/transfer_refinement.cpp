@@ -50,8 +50,8 @@ Vector first_point(const TransferOutput& model, const TransferStructure& structu
     return theta;
 }
 
-// A held input makes outputs with n - m < 2 kinked or stepped functions of the delay, sampling instant by sampling
-// instant, straight lines those with n = m: points half an interval away on both sides of each such delay.
+// With a held input, outputs with n - m < 2 are functions of the delay with kinks or steps at the sampling instants;
+// with linear interpolation those with n = m. The starts are half an interval away on both sides of each such delay.
 std::vector<Vector> starts_around(const TransferStructure& structure, const IdData& data, const Vector& theta) {
     std::vector<Vector> starts = {theta};
     if (!structure.free_delays) return starts;

@@ -15,27 +15,26 @@ namespace dynlab::inline numerics {
 /// (delay_range); where the output is not smooth in them, the search also sets out from the two neighboring sampling
 /// intervals. Steps to models whose simulation grows beyond bounds raise the loss and are never taken.
 ///
-/// Outputs that share no denominator are problems of their own and are solved one by one. Others are weighted with one
-/// over the standard deviation of their errors, which is found in two rounds; the trace counts weighted squares then.
+/// Outputs that share no denominator are separate problems and are solved in turn. Other outputs are weighted with one
+/// over the standard deviation of their errors, which two rounds determine; the trace then counts weighted squares.
 ///
-/// `masked_seconds`: with an estimated start, so many seconds at the beginning of each experiment do not count, because
-/// inputs from before it, which nobody knows, still arrive there; an initial value then is what the free motion after
-/// them would have begun with.
+/// `masked_seconds`: with an estimated start, the first `masked_seconds` seconds of each experiment do not count,
+/// because unknown inputs from before the experiment still arrive then. An initial value then is that of the free
+/// motion after them, extrapolated back to the start.
 ///
-/// `FitOptions` count here: least_delay, largest_delay, max_iterations, tolerance, cancel, stable, fixed (their
-/// standard errors are zero), output_weights. The data are taken as they
-/// are: an operating point has to be removed before (without_operating_points). Fills every field but delay_grid and
-/// delay_loss; doubtful results are told in `warnings`, never thrown. Throws InvalidArgument for data that do not fit
-/// the structure (check_transfer_data), for another length of theta_start, or for no more samples than values to
-/// estimate.
+/// `FitOptions` used here: least_delay, largest_delay, max_iterations, tolerance, cancel, stable, fixed (their standard
+/// errors are zero), output_weights. The data are not changed: the caller must remove an operating point first
+/// (without_operating_points). Sets every field except delay_grid and delay_loss. `warnings` reports doubtful results;
+/// the function does not throw for them. Throws InvalidArgument for data that do not match the structure
+/// (check_transfer_data), for another length of theta_start, or for no more samples than values to estimate.
 Fit refine_output_error(const IdData& data, const TransferStructure& structure, const StartCondition& condition,
                         const Vector& theta_start, const FitOptions& options, double masked_seconds = 0);
 
 /// How such a search ended, with the iterations of its whole trace.
 Message output_error_message(const Fit& fit);
 
-/// `masked_seconds` for a model with this delay (s), or with those of a fit: the longest and a sample more; zero where
-/// the start is not estimated, and where it would be half of the shortest record.
+/// `masked_seconds` for a model with this delay (s), or with the delays of a fit: the longest delay plus one sample;
+/// zero if the start is not estimated, and if it would be half of the shortest experiment.
 double masked_start(const StartCondition& start, double delay, const IdData& data);
 double masked_start(const Fit& fit, const IdData& data);
 
@@ -55,7 +54,7 @@ Vector search_point(const Fit& fit, const TransferOutput& model, const Vector& s
 /// squares; to zero where the simulation grows beyond all bounds.
 void solve_linear_part(const TransferOutput& model, Vector& theta);
 
-/// One output of a problem whose outputs share no denominator, as a problem of its own.
+/// One output, as a separate problem, of a problem whose outputs share no denominator.
 struct OutputProblem {
     IdData data;                  ///< all inputs, one output
     TransferStructure structure;  ///< its channels
@@ -65,7 +64,7 @@ struct OutputProblem {
 /// Whether no denominator serves channels of two outputs.
 bool outputs_are_separate(const TransferStructure& structure);
 
-/// The fit of one output (0-based) by itself.
+/// The separate problem of one output (0-based).
 OutputProblem output_problem(const IdData& data, const TransferStructure& structure, Index output);
 
 /// The estimates of all outputs as one estimate of the whole structure: covariance block by block, the worst

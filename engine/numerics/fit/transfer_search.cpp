@@ -23,7 +23,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kNestedSamples = 100'000;  // poorer structures of longer records are not fitted
+constexpr Index kNestedSamples = 100'000;  // structures with fewer parameters are not fitted to longer data
 constexpr double kClearly = 1.02;          // times the loss of an unstable model: less is no evidence for one
 
 /// How far every start is followed before the best of them are taken to the end.
@@ -116,15 +116,16 @@ class NestedFits {
     }
 
   private:
-    /// The best that is found from these starts, or without any as a call of its own finds it. A search that
-    /// will not come below `requested`, the richer structure's loss, is not followed to its end.
+    /// The best solution from these starts, or without starts the solution of a separate call. A search that will not
+    /// reach a loss below `requested`, the loss of the larger structure, stops early.
     NestedSolution solution_of(const TransferStructure& structure, std::vector<Vector> starts, double requested) const {
         const auto settled = [&](Fit fit) {
             return solution(structure, followed(structure, std::move(fit), requested));
         };
         try {
             if (!starts.empty()) return settled(refine_from(record_, structure, condition_, starts, options_));
-            // As a call of its own finds it, and from the passes: together the nearer end would hide the better one.
+            // The solution of a separate call, and the one from the passes: a joint search would follow the nearer
+            // optimum and miss the better one.
             const Vector start = start_from_rest(for_start_, structure, options_);
             const NestedSolution own = settled(best(structure, {start}));
             const Vector passed = iterate_srivc(for_start_, structure, start, options_).theta;
@@ -184,8 +185,8 @@ IdData levelled_for_start(const IdData& data) {
     return centered.data;
 }
 
-/// With an estimated start: inputs from before a record reach the output during the delays, so that this beginning is
-/// left out and the search goes on from where it was.
+/// With an estimated start: inputs from before the first sample reach the output during the delays, so that this
+/// beginning is left out and the search continues from its last point.
 Fit without_masked_inputs(const IdData& record, const TransferStructure& structure, Fit fit,
                           const FitOptions& options) {
     constexpr int kRounds = 3;
@@ -206,10 +207,10 @@ Fit settled(const IdData& record, const TransferStructure& structure, Fit fit, c
                                               options.limited(kLastIterations, options.tolerance)));
 }
 
-/// Another valley of the delay far from the estimate, whose loss chance does not tell from the smallest: what differs
-/// between the two is not determined, and standard errors about one of them mean nothing.
+/// Finds another valley of the delay, far from the estimate, whose loss differs from the smallest only by chance. The
+/// parameters that differ between the two are then not determined, and standard errors about one of them mean nothing.
 void withdraw_errors_of_rivals(Fit& fit, const IdData& record, const DelayScan& scan) {
-    constexpr Index kCurveSamples = 50'000;  // of a longer record
+    constexpr Index kCurveSamples = 50'000;  // at most
     constexpr double kRivalChance = 6.635;   // 99 % quantile of chi-square with one degree of freedom
     constexpr double kRivalSteps = 2, kRivalErrors = 3, kSameScale = 1.05, kDiffers = 2;
     const Vector& losses = scan.losses;
@@ -236,8 +237,8 @@ void withdraw_errors_of_rivals(Fit& fit, const IdData& record, const DelayScan& 
     }
 }
 
-/// The fit, or a better one where its errors tell that something is missing: from models with other poles, and from
-/// those of difference equations where the errors change quickly.
+/// The fit, or a better one if its errors show missing dynamics: from models with other poles, and, if the errors
+/// change quickly, from those of difference equations.
 Fit or_from_further_starts(const IdData& record, const TransferStructure& structure, Fit best,
                            const FitOptions& options) {
     const bool suits = structure.inputs == 1 && structure.outputs == 1 && options.fixed.empty() &&

@@ -26,7 +26,7 @@ struct SymmetricEigen {
 SymmetricEigen symmetric_eigen(const MatrixView& A);
 Vector symmetric_eigenvalues(const MatrixView& A);
 
-/// A = Q T Q' for a symmetric A, T tridiagonal: its diagonal, what stands beside it, and Q'b. A quarter of the work of
+/// A = Q T Q' for a symmetric A, T tridiagonal: its diagonal, its off-diagonal, and Q'b. Takes a quarter of the work of
 /// the eigenvalues.
 struct TridiagonalForm {
     Vector diagonal, beside, rotated;
@@ -38,7 +38,7 @@ TridiagonalForm tridiagonal_form(const MatrixView& A, const VectorView& b);
 /// matrices (companion matrices above all) become accurate. (Parlett and Reinsch 1969.)
 Vector balance(Eigen::Ref<Matrix> A);
 
-/// Of a square matrix, in no order; conjugate pairs stand side by side.
+/// Of a square matrix, in no order; conjugate pairs are adjacent.
 struct Eigenvectors {
     ComplexVector values;
     Eigen::MatrixXcd vectors;

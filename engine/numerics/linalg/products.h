@@ -11,7 +11,7 @@
 
 namespace dynlab::inline numerics {
 
-/// Entry (i, j) stands at data[i + j * stride], or with `by_rows` at data[i * stride + j].
+/// Entry (i, j) is at data[i + j * stride], or with `by_rows` at data[i * stride + j].
 template <class Number>
 struct StoredMatrix {
     Number* data;
@@ -21,7 +21,7 @@ struct StoredMatrix {
     StoredMatrix transposed() const { return {data, cols, rows, stride, !by_rows}; }
 };
 
-/// Entry i stands at data[i * step].
+/// Entry i is at data[i * step].
 template <class Number>
 struct StoredVector {
     Number* data;
@@ -75,7 +75,7 @@ class FactorInMemory {
     auto vector() const {
         return dynlab::StoredVector<const Number>{stored_.data(), stored_.size(), stored_.innerStride()};
     }
-    /// What stands before it.
+    /// The scalar factor of the operand.
     static Number scalar(const Factor& factor) {
         if constexpr (kIsThere) return Traits::extractScalarFactor(factor);
         return Number(1);

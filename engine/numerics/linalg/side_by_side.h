@@ -8,9 +8,9 @@
 
 namespace dynlab::inline numerics {
 
-/// work(0), ..., work(count - 1), at the same time where there are idle cores; one after the other where they are not
-/// `long_enough` for that (some ten microseconds each). Whoever waits here for the last one takes up none of a
-/// surrounding loop's work in between. Throws what one of them throws; others may then be left out.
+/// Runs work(0), ..., work(count - 1), in parallel on idle cores, or in sequence if the calls are not `long_enough` for
+/// that (some ten microseconds each). A thread that waits here for the last call takes no other work of a surrounding
+/// loop in between. Rethrows an exception of one of the calls; other calls may then not run.
 template <class Work>
 void side_by_side(std::size_t count, const Work& work, bool long_enough = true) {
     if (count == 1 || !long_enough) {

@@ -6,8 +6,8 @@
 
 namespace dynlab::inline numerics {
 
-/// Functions that are called for each evaluation, where no expressions of them are known. t in the unit of the record's
-/// time, mostly s.
+/// Functions that are called for each evaluation, for equations without known expressions. t is in the time unit of the
+/// data, usually s.
 struct CalledFunctions {
     using Function = std::function<Vector(double t, const Vector& x, const Vector& u, const Vector& p)>;
     Function rates, outputs;                               ///< n and ny values

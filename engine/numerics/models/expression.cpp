@@ -27,8 +27,7 @@ int operand_count(Operation operation) {
     return operation <= Operation::kMinimum || operation == Operation::kPowerOrZero ? 2 : 1;
 }
 
-/// Calls use(f) with the function f(a, b, c) that an operation stands for. Variables have their value already: their f
-/// is a.
+/// Calls use(f) with the function f(a, b, c) of an operation. Variables already have their value: their f is a.
 template <class Use>
 void with_function_of(Operation operation, const Use& use) {
     switch (operation) {

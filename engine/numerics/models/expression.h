@@ -9,7 +9,7 @@
 
 namespace dynlab::inline numerics {
 
-/// What one line of a tape computes. Variables stand for themselves, by their place.
+/// The operation of one line of a tape. Variables represent themselves, by their place.
 enum class Operation : std::uint8_t {
     kConstant,
     kTime,

@@ -7,7 +7,7 @@
 
 namespace dynlab::inline numerics {
 
-/// What a model makes of the inputs of one experiment by itself.
+/// Simulation of a model on the inputs of one experiment alone.
 struct FreeRun {
     Matrix output;                 ///< N x ny; from a divergence on NaN
     std::optional<Index> lost_at;  ///< 0-based sample at which it left all bounds
@@ -15,17 +15,17 @@ struct FreeRun {
 };
 
 /// A model that is simulated and not written as transfer functions: polynomial difference equations, differential
-/// equations. It is immutable, and its free run asks nothing but the record.
+/// equations. It is immutable, and its free run depends only on the data.
 class FreeRunModel {
   public:
     virtual ~FreeRunModel() = default;
     virtual Index input_count() const = 0;
     virtual Index output_count() const = 0;
 
-    /// Simulates one experiment (0-based) on its inputs; of its measured outputs nothing is used but what tells where
-    /// the run begins. `x0` is the state there, as the model counts it; when it is empty the record tells it, and the
-    /// run begins at rest (all zero) where data have no outputs. Throws InvalidArgument for other channels or another
-    /// sampling than the model's, an `x0` of another size, or a record that is too short to begin with.
+    /// Simulates one experiment (0-based) on its inputs. It uses the measured outputs only to determine the start of
+    /// the run. `x0` is the state there, in the model's order. If `x0` is empty, the data determine it; for data
+    /// without outputs the run begins at rest (all zero). Throws InvalidArgument for other channels or another sampling
+    /// time than the model's, an `x0` of another size, or an experiment that is too short.
     virtual FreeRun free_run(const IdData& data, std::size_t experiment, const VectorView& x0) const = 0;
 };
 

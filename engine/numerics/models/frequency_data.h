@@ -8,11 +8,11 @@
 
 namespace dynlab::inline numerics {
 
-/// How the input went on between the samples of the record that a response was found from.
+/// Behavior of the input between the samples of the data from which a response was estimated.
 enum class InterSample {
     kBandLimited,  ///< a sum of sines below pi/Ts: the response is that of the continuous-time system, G(i w)
     kZoh,          ///< held: the response is that of the sampled system, G_d(exp(i w Ts))
-    kFoh,          ///< on straight lines between the samples
+    kFoh,          ///< linearly interpolated between the samples
 };
 InterSample inter_sample_of(Hold hold);  ///< zoh or foh
 

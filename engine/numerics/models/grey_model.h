@@ -37,8 +37,8 @@ struct GreyLinearSystem {
     std::vector<Part> by_parameter;  ///< d
 };
 
-/// The equations at one set of parameters, ready to be evaluated. Not for several threads at once. t in the unit of the
-/// record's time, mostly s.
+/// The equations at one set of parameters, ready for evaluation. Not thread-safe. t is in the time unit of the data,
+/// usually s.
 class GreyEvaluation {
   public:
     virtual ~GreyEvaluation() = default;
@@ -69,8 +69,8 @@ struct GreyModel {
     std::vector<GreyParameter> parameters;
     std::vector<std::string> state_names;  ///< n
     Index inputs = 0;
-    bool outputs_are_states = false;      ///< the first ones, as many as the record has outputs
-    std::vector<bool> estimated_initial;  ///< n: initial values that are estimated, for each experiment by itself
+    bool outputs_are_states = false;      ///< the first states, as many as the data have outputs
+    std::vector<bool> estimated_initial;  ///< n: initial values that are estimated, separately for each experiment
 
     Index order() const { return static_cast<Index>(state_names.size()); }
     Vector start() const;  ///< of all parameters

@@ -23,13 +23,14 @@ struct ImpulseEstimate {
     std::vector<Message> warnings;
 };
 
-/// Finds the first lag that together with the next lies beyond `half_width` of its null_std on the same side, and
-/// completes the message by what it says of the dead time: a held input needs one lag to act, so the dead time is about
-/// first - 1 samples; one that runs on straight lines begins to change a lag earlier, so it is about first samples.
+/// Finds the first lag that together with the next lies beyond `half_width` of its null_std on the same side, and adds
+/// the resulting dead time to the message. A held input needs one lag to act, so the dead time is about first - 1
+/// samples. The response to a linearly interpolated input begins one lag earlier, so the dead time is about first
+/// samples.
 void read_dead_time(ImpulseEstimate& estimate, double Ts, Hold hold, double half_width);
 
-/// `lags` when positive, else the smaller of 70 and a fifth of the shortest record. Throws InvalidArgument, beginning
-/// with `caller`, when three times as many samples as lags are not there.
+/// Returns `lags` if positive, otherwise the smaller of 70 and a fifth of the shortest experiment. Throws
+/// InvalidArgument, with a message that begins with `caller`, for fewer than three samples per lag.
 Index lags_or_default(const std::string& caller, Index lags, Index shortest);
 
 }  // namespace dynlab::inline numerics

@@ -6,12 +6,12 @@
 
 namespace dynlab::inline numerics {
 
-/// How many coefficients each polynomial of a PolynomialModel has to be estimated, and how they stand in a parameter
-/// vector: a_1..a_na, then for each input f_1..f_nf and b_nk..b_(nk+nb-1), then c_1..c_nc and d_1..d_nd. A b is
-/// numbered by the samples its input is late: b_1 weighs u(k-1).
+/// The number of estimated coefficients of each polynomial of a PolynomialModel, and their order in a parameter vector:
+/// a_1..a_na, then for each input f_1..f_nf and b_nk..b_(nk+nb-1), then c_1..c_nc and d_1..d_nd. The index of b is the
+/// delay of the input in samples: b_1 is the weight of u(k-1).
 struct PolynomialOrders {
     int na = 0;                   ///< poles common to all inputs and the noise
-    std::vector<int> nb, nf, nk;  ///< per input: coefficients of B, poles of its own, samples of delay
+    std::vector<int> nb, nf, nk;  ///< per input: coefficients of B, separate poles, samples of delay
     int nc = 0, nd = 0;           ///< of the noise model
 
     static PolynomialOrders arx(int na, std::vector<int> nb, std::vector<int> nk);
@@ -32,10 +32,10 @@ struct PolynomialOrders {
     void validate() const;
 };
 
-/// A(q) y(k) = sum_i B_i(q)/F_i(q) u_i(k) + C(q)/D(q) e(k), every Ts seconds, with white e and one output. The
-/// vectors hold the weights of the present sample, the one before it, ...: A = [1 a_1 .. a_na] is
-/// 1 + a_1 q^-1 + ..., which in powers of q is highest power first. A delay of nk samples stands in B as that many
-/// leading zeros: with nk = 1, no direct term, B = [0 b_1 b_2 ...]. A, C, D and F begin with 1.
+/// A(q) y(k) = sum_i B_i(q)/F_i(q) u_i(k) + C(q)/D(q) e(k), every Ts seconds, with white e and one output. The vectors
+/// hold the weights of the present sample, the one before it, ...: A = [1 a_1 .. a_na] is 1 + a_1 q^-1 + ..., which in
+/// powers of q is highest power first. A delay of nk samples is represented in B by nk leading zeros: with nk = 1, no
+/// direct term, B = [0 b_1 b_2 ...]. A, C, D and F begin with 1.
 struct PolynomialModel {
     Vector A, C, D;
     std::vector<Vector> B, F;  ///< one for each input

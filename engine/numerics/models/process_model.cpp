@@ -10,7 +10,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-/// The flag a letter stands for, or none.
+/// The flag of a letter, or nullptr.
 bool* flag(ProcessStructure& structure, char letter) {
     switch (letter) {
         case 'D':

@@ -26,9 +26,9 @@ struct SplitDelay {
 };
 SplitDelay split_delay(double delay, double Ts);
 
-/// dx/dt = A x + B u(t - delay), y = C x + D u(t - delay) at the instants k Ts, exact for an input that is held
-/// (zoh) or runs on straight lines (foh) between samples; B and D have one column. Any delay >= 0.
-/// (Astrom and Wittenmark 1997, section 2.3; numerics of Van Loan 1978.)
+/// dx/dt = A x + B u(t - delay), y = C x + D u(t - delay) at the instants k Ts, exact for an input that is held (zoh)
+/// or linearly interpolated (foh) between samples; B and D have one column. Any delay >= 0. (Astrom and Wittenmark
+/// 1997, section 2.3; numerics of Van Loan 1978.)
 SampledSystem discretize(const MatrixView& A, const VectorView& B, const MatrixView& C, const VectorView& D, double Ts,
                          Hold hold, double delay = 0);
 

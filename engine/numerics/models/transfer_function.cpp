@@ -20,7 +20,7 @@ void check_coefficients(const VectorView& num, const VectorView& den) {
         throw InvalidArgument("transfer function: the denominator contains a coefficient that is not finite");
 }
 
-/// A discrete delay as the exact multiple of Ts it stands for.
+/// A discrete delay, rounded to the exact multiple of Ts.
 double delay_on_grid(double delay, double Ts) {
     constexpr double kRounding = 1e-9;
     const double samples = delay / Ts, nearest = std::round(samples);

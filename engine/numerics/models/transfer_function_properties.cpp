@@ -9,7 +9,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-/// The point of the s plane that stands for a pole or zero.
+/// The point of the s plane that corresponds to a pole or zero.
 Complex continuous_point(const TransferFunction& G, Complex point) {
     return G.continuous() ? point : std::log(point) / G.Ts();
 }

@@ -64,7 +64,8 @@ struct CraneTruth {
     double starting_voltage;   ///< below it a resting trolley stays, V
     double time_constant;      ///< of the speed: belt and pendulum rigid, no inductance, s
 };
-/// What the record should tell, from the parameters by formula. Throws InvalidArgument as their validate() does.
+/// True values of the quantities that the data show, computed from the parameters. Throws InvalidArgument as their
+/// validate().
 CraneTruth crane_truth(const CraneParameters& parameters);
 
 /// The crane in motion. Sliding either way, sticking and touching a buffer are separate forms of the equations; each

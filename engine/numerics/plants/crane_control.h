@@ -19,9 +19,9 @@ struct CraneRun {
     void validate(const CraneParameters& parameters) const;
 };
 
-/// The nonlinear crane in closed loop, with the sensors and the sampling time of `plan`. The record has the commanded
-/// voltage, and the angle as the controller was given it. Throws InvalidArgument when the controller gives a voltage
-/// that is not finite.
+/// The nonlinear crane in closed loop, with the sensors and the sampling time of `plan`. The data contain the commanded
+/// voltage, and the angle that the controller received. Throws InvalidArgument if the controller returns a voltage that
+/// is not finite.
 CraneRecord control_crane(const CraneParameters& parameters, const CraneExperiments& plan, const CraneRun& run,
                           const CraneController& controller, std::uint32_t seed);
 

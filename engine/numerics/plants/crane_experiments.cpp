@@ -46,7 +46,8 @@ class Experimenter {
         return -(lowest + highest) / 2;
     }
 
-    /// A record in which all is settled but what comes of it, with the numbers for the noise of its sensors.
+    /// A planned experiment, with the random numbers for the noise of its sensors; only the response is not yet
+    /// computed.
     struct Plan {
         CraneRecord record;
         CraneState start;
@@ -119,7 +120,8 @@ std::vector<CraneRecord> simulate_crane(const CraneParameters& parameters, const
                                         std::uint32_t seed) {
     experiments.validate();
     Experimenter experimenter(parameters, experiments, seed);
-    // All that is random is drawn in the records' order; then each can be simulated by itself.
+    // All random numbers are drawn in the order of the experiments; after that each experiment can be simulated
+    // separately.
     std::vector<Experimenter::Plan> plans;
     plans.push_back(experimenter.random_record("estimation"));
     plans.push_back(experimenter.random_record("validation"));

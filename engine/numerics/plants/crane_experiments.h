@@ -36,7 +36,7 @@ struct CraneRecord {
 ///   steps                   pushes of 2 V and 4 V to either side with rests between them;
 ///   free_swing              motor at 0 V, pendulum let go at release_angle;
 ///   limits                  PRBS, then +-12 V by hand: beyond the amplifier's limit and into both buffers, then PRBS.
-/// Equal seeds give equal records.
+/// Equal seeds give equal data.
 std::vector<CraneRecord> simulate_crane(const CraneParameters& parameters, const CraneExperiments& experiments,
                                         std::uint32_t seed);
 

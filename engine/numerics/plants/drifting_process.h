@@ -6,7 +6,7 @@
 
 namespace dynlab::inline numerics {
 
-/// Water flows through an electric heater that furs up and is descaled once during the record:
+/// Water flows through an electric heater that collects scale and is descaled once during the experiment:
 ///     time_constant(t) dx/dt = gain(t) u - x,
 /// x the rise of temperature (K), u the heating power (%). With the scale s(t), which grows from 0 towards 1 as
 /// 1 - exp(-t/growth_time) and begins again at cleaning_time,
@@ -43,7 +43,7 @@ struct DriftingProcessExperiments {
 Vector simulate_drifting_process(const DriftingProcessParameters& parameters, const Vector& u, double Ts,
                                  RandomStream& random);
 
-/// Equal seeds give equal records.
+/// Equal seeds give equal data.
 PlantData simulate_drifting_process(const DriftingProcessParameters& parameters,
                                     const DriftingProcessExperiments& experiments, std::uint32_t seed);
 

@@ -59,11 +59,11 @@ struct DriveRecord {
 
 /// The loop with a given reference, from rest; draws the load, then the tachometer's noise.
 DriveRecord simulate_drive(const DriveParameters& parameters, const Vector& reference, RandomStream& random);
-/// The same with the loop open and a given voltage; the reference is told as zero.
+/// The same with the loop open and a given voltage; the returned reference is zero.
 DriveRecord simulate_open_drive(const DriveParameters& parameters, const Vector& voltage, RandomStream& random);
 
 /// tracking and validation: the loop with two orders of bits; regulation: the reference rests at zero; open_loop: the
-/// voltage is chosen and nothing fed back. Equal seeds give equal records.
+/// voltage is given, without feedback. Equal seeds give equal data.
 std::vector<DriveRecord> simulate_drive(const DriveParameters& parameters, const DriveExperiments& experiments,
                                         std::uint32_t seed);
 

@@ -33,10 +33,11 @@ struct FirstOrderStepTruth {
     double f, g;  ///< exp(-Ts/time_constant) and gain (1 - f)
 };
 
-/// What the record should tell, from the parameters by formula. Throws InvalidArgument as their validate() does.
+/// True values of the quantities that the data show, computed from the parameters. Throws InvalidArgument as their
+/// validate().
 FirstOrderStepTruth first_order_step_truth(const FirstOrderStepParameters& parameters);
 
-/// The noise of y is drawn before that of ydot; equal seeds give equal records.
+/// The noise of y is drawn before that of ydot; equal seeds give equal data.
 FirstOrderStepRecord simulate_first_order_step(const FirstOrderStepParameters& parameters, std::uint32_t seed);
 
 }  // namespace dynlab::inline numerics

@@ -8,8 +8,8 @@ namespace dynlab::inline numerics {
 /// A well-mixed water heater: water flows through a vessel of uniform temperature, a heating valve lets power in,
 /// the vessel's wall loses heat to the room:
 ///     C dT/dt = flow c (T_in - T) + loss (T_room - T) + power u/100,   C = mass c + wall_capacity.
-/// u is the valve's opening in %, y the outlet temperature in degrees Celsius. The vessel rests at its
-/// equilibrium for `valve_before` when the record begins; the valve moves at `step_time` (rounded to a sample).
+/// u is the valve's opening in %, y the outlet temperature in degrees Celsius. The vessel rests at its equilibrium for
+/// `valve_before` at the first sample; the valve moves at `step_time` (rounded to a sample).
 struct HeatExchangerParameters {
     double mass = 4.0;              ///< water in the vessel, kg
     double specific_heat = 4186;    ///< of water, J/(kg K)
@@ -40,10 +40,11 @@ struct HeatExchangerTruth {
     double final_output;          ///< equilibrium after the step, degrees Celsius
 };
 
-/// What the record should tell, from the parameters by formula. Throws InvalidArgument as their validate() does.
+/// True values of the quantities that the data show, computed from the parameters. Throws InvalidArgument as their
+/// validate().
 HeatExchangerTruth heat_exchanger_truth(const HeatExchangerParameters& parameters);
 
-/// The sampled experiment; equal seeds give equal records.
+/// The sampled experiment; equal seeds give equal data.
 PlantData simulate_heat_exchanger(const HeatExchangerParameters& parameters, std::uint32_t seed);
 
 }  // namespace dynlab::inline numerics

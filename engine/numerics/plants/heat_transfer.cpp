@@ -66,7 +66,7 @@ Vector simulate_heat_transfer(const HeatTransferParameters& p, const Vector& u, 
         throw InvalidArgument(
             "The voltages of the heat-transfer plant must have at least one sample, and every sample must be finite");
     const double w = 2 * std::numbers::pi / p.drift_period, phase = 2 * std::numbers::pi * random.uniform();
-    // The rig is linear in heating power and inlet temperature, so that both may be delayed in place of the air.
+    // The plant is linear in heating power and inlet temperature, so that both can be delayed instead of the air.
     double power = heating(p, u[0]);
     OdeSolver solver(
         [&](double t, const OdeState& x) {

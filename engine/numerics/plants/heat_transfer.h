@@ -12,7 +12,7 @@ namespace dynlab::inline numerics {
 ///     sensor_time     dT_s/dt = T_a(t - dead_time) - T_s
 /// u is the heater's voltage, so the gain grows with the operating point; y is T_s in degrees Celsius, noisy and
 /// rounded. The inlet's temperature drifts: T_in = inlet + drift sin(2 pi (t + dead_time)/drift_period + phase), the
-/// phase drawn from the seed. Every record begins at the equilibrium of its operating point.
+/// phase drawn from the seed. Every experiment begins at the equilibrium of its operating point.
 struct HeatTransferParameters {
     double heater_capacity = 60;  ///< J/K
     double air_capacity = 10;     ///< of air and tube, J/K
@@ -34,7 +34,7 @@ struct HeatTransferParameters {
 
 /// A pseudo-random binary voltage about an operating point, after a rest there.
 struct HeatTransferExperiments {
-    double low = 4;        ///< operating point of the records for estimation and validation, V
+    double low = 4;        ///< operating point of the estimation and validation data, V
     double high = 7;       ///< the other operating point, V
     double amplitude = 1;  ///< V
     int prbs_stages = 6;   ///< 63 bits
@@ -65,7 +65,7 @@ struct HeatTransferRecords {
     PlantData estimation, validation;  ///< about the low operating point, two orders of bits
     PlantData high;                    ///< about the high one
 };
-/// Equal seeds give equal records.
+/// Equal seeds give equal data.
 HeatTransferRecords simulate_heat_transfer(const HeatTransferParameters& parameters,
                                            const HeatTransferExperiments& experiments, std::uint32_t seed);
 

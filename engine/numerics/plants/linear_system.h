@@ -8,7 +8,7 @@ namespace dynlab::inline numerics {
 
 /// The linear system on which the choice of an order is learnt: one real pole, a resonance and a zero,
 ///     X(s) = gain (s/zero + 1)/((s/pole + 1)(s^2/w0^2 + 2 z s/w0 + 1)) U(s),      y = x + white normal noise.
-/// Both records start from rest; u is a seeded pseudo-random binary sequence of +-amplitude.
+/// Both data sets start from rest; u is a seeded pseudo-random binary sequence of +-amplitude.
 struct LinearSystemParameters {
     double gain = 2;
     double zero = 4;         ///< rad/s
@@ -25,13 +25,13 @@ struct LinearSystemParameters {
     void validate() const;
 };
 
-/// What the record should tell, from the parameters by formula. Throws InvalidArgument as their validate() does.
+/// The true system, computed from the parameters. Throws InvalidArgument as their validate().
 TransferFunction linear_system_truth(const LinearSystemParameters& parameters);
 
 struct LinearSystemRecords {
     PlantData estimation, validation;
 };
-/// Equal seeds give equal records.
+/// Equal seeds give equal data.
 LinearSystemRecords simulate_linear_system(const LinearSystemParameters& parameters, std::uint32_t seed);
 
 }  // namespace dynlab::inline numerics

@@ -12,7 +12,7 @@ PlantValues input_and_output(const PlantData& record) {
     return {{"t", record.t}, {"u", record.u}, {"y", record.y}};
 }
 
-/// Adds a further record whose names end in `part`.
+/// Adds another experiment whose names end in `part`.
 void add_part(PlantValues& values, const PlantData& record, const std::string& part) {
     for (PlantValue& value : input_and_output(record)) values.push_back({value.name + part, std::move(value.value)});
 }

@@ -11,7 +11,7 @@
 namespace dynlab::inline numerics {
 
 /// Results of an experiment, or their theoretical values: values by name, in the order in which they are documented.
-/// Parts of a record, such as one of several experiments, are nested values.
+/// Parts of a data set, such as one of several experiments, are nested values.
 struct PlantValue;
 using PlantValues = std::vector<PlantValue>;
 struct PlantValue {
@@ -24,27 +24,27 @@ struct PlantSignal {
     std::string unit;  ///< empty for numbers without one
 };
 
-/// Selects a record. Default: the stored record.
+/// Selects a data set. Default: the stored data set.
 struct PlantChoice {
     std::uint32_t specimen = 0;  ///< plant variant (plant_variant.h); 0: the parameters in the header of the plant
     std::uint32_t seed = 1;      ///< of noise and of random inputs
 };
 
-/// One of the course's simulated experiments, whose stored record is the data set of the same name.
+/// One of the course's simulated plants. Its stored data set has the same name.
 struct Plant {
     std::string name;                      ///< of the data set
-    std::string title;                     ///< of the records, a few words
-    std::vector<PlantSignal> signals;      ///< of the record, or of each of its experiments; instants come first
-    std::vector<std::string> experiments;  ///< their names; empty where the signals are the record itself
-    double Ts = 0;                         ///< of its records, s
+    std::string title;                     ///< of the data sets, a few words
+    std::vector<PlantSignal> signals;      ///< of the data set, or of each of its experiments; instants come first
+    std::vector<std::string> experiments;  ///< their names; empty if the data set has no nested experiments
+    double Ts = 0;                         ///< of its data sets, s
 
-    /// The record, N values for each signal: equal choices give equal records on every machine.
+    /// Returns the data set, N values for each signal. Equal choices give equal data on every machine.
     PlantValues (*record)(const PlantChoice& choice) = nullptr;
     /// True parameters of the plant variant, without noise.
     PlantValues (*truth)(std::uint32_t specimen) = nullptr;
 };
 
-/// The table of rigs, sorted by name.
+/// The table of plants, sorted by name.
 std::span<const Plant> plant_catalog();
 
 /// The simulated plant with this name; nullptr if there is none.

@@ -7,7 +7,7 @@
 
 namespace dynlab::inline numerics {
 
-/// What a rig's experiment leaves: instants (s), inputs and measured outputs, N values each.
+/// Data of a plant's experiment: instants (s), inputs and measured outputs, N values each.
 struct PlantData {
     Vector t, u, y;
 };
@@ -15,7 +15,7 @@ struct PlantData {
 /// Instants 0, Ts, ... that cover `duration` (s), both ends included when it is a multiple of Ts.
 Vector sampling_instants(double duration, double Ts);
 
-/// Throws InvalidArgument "The RIG's NAME must be positive (not be negative), and is VALUE". The names are those of
+/// Throws InvalidArgument "The PLANT's NAME must be positive (nonnegative), but is VALUE". The names are those of
 /// parameters of the C++ structs, which have no translation.
 void require_positive(const char* plant, const char* name, double value);
 void require_not_negative(const char* plant, const char* name, double value);
@@ -36,7 +36,7 @@ void require_not_negative(const char* plant, const char* name, double value, Mor
 /// has the same spectrum; no two seeds give the same order of bits, few exceptions apart.
 Vector seeded_prbs(int stages, int hold, double low, double high, RandomStream& random);
 
-/// A rig's sensor: white normal noise of standard deviation `noise_std`, then rounding to whole multiples of
+/// A plant's sensor: white normal noise of standard deviation `noise_std`, then rounding to whole multiples of
 /// `resolution` (none when 0).
 Vector measure(const Vector& truth, double noise_std, double resolution, RandomStream& random);
 /// The same with the noise's numbers, of standard deviation one, drawn before.

@@ -12,7 +12,7 @@ struct Change {
     double spread;
 };
 
-/// Changes parameters one after the other; none of specimen 0.
+/// Changes parameters in sequence; none for variant 0.
 void vary(std::uint32_t number, std::initializer_list<Change> changes) {
     if (number == 0) return;
     RandomStream random(number);

@@ -14,10 +14,10 @@
 
 namespace dynlab::inline numerics {
 
-/// Other specimens of the course's apparatus, as a laboratory with several of them has: what a student estimates is
-/// multiplied by factors drawn uniformly from 1 - d to 1 + d with d between 0.08 and 0.25 as the source says, one for
-/// each part of the apparatus, which may bear on several parameters. Specimen 0 is the one that the headers describe;
-/// equal numbers give equal parameters on every machine.
+/// Variants of the course's plants, like several units of the same apparatus in a laboratory. The parameters that a
+/// student estimates are multiplied by factors drawn uniformly from 1 - d to 1 + d, with d between 0.08 and 0.25 as set
+/// in the source. Each part of the apparatus has one factor, which may affect several parameters. Variant 0 is the
+/// plant described in the headers. Equal numbers give equal parameters on every machine.
 CraneParameters crane_variant(std::uint32_t number);                       ///< cable, load, friction, trolley, motor
 DriftingProcessParameters drifting_process_variant(std::uint32_t number);  ///< gain, time constant, growth of scale
 DriveParameters drive_variant(std::uint32_t number);                       ///< motor constant, inertia, inductance

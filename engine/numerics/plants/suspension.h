@@ -7,8 +7,8 @@ namespace dynlab::inline numerics {
 
 /// A suspension on its test bench: a mass on a spring and a damper, pushed by an electric actuator:
 ///     mass d2x/dt2 + damping dx/dt + stiffness x = force_per_volt u.
-/// u is the actuator's voltage, a step of `step_height` at `step_time` (rounded to a sample; with 0 the record begins
-/// at the step); y is the displacement in millimetres from rest, read by a displacement sensor.
+/// u is the actuator's voltage, a step of `step_height` at `step_time` (rounded to a sample; with 0 the data begin at
+/// the step); y is the displacement in millimetres from rest, read by a displacement sensor.
 struct SuspensionParameters {
     double mass = 12;            ///< kg
     double stiffness = 2000;     ///< N/m
@@ -35,10 +35,11 @@ struct SuspensionTruth {
     double overshoot_time;     ///< after the step, pi/(w0 sqrt(1 - z^2)), s
 };
 
-/// What the record should tell, from the parameters by formula. Throws InvalidArgument as their validate() does.
+/// True values of the quantities that the data show, computed from the parameters. Throws InvalidArgument as their
+/// validate().
 SuspensionTruth suspension_truth(const SuspensionParameters& parameters);
 
-/// The sampled experiment; equal seeds give equal records.
+/// The sampled experiment; equal seeds give equal data.
 PlantData simulate_suspension(const SuspensionParameters& parameters, std::uint32_t seed);
 
 }  // namespace dynlab::inline numerics

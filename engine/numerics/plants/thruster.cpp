@@ -32,7 +32,7 @@ Vector turbulence(Vector noise, double Ts, double correlation_time) {
     return noise;
 }
 
-/// The random numbers of a record, white and of variance one.
+/// The random numbers of one experiment, white and of variance one.
 struct ThrusterNormals {
     ThrusterNormals(Index count, RandomStream& random) : wake(random.normal(count)), sensor(random.normal(count)) {}
     Vector wake, sensor;
@@ -130,7 +130,8 @@ std::vector<ThrusterRecord> simulate_thruster(const ThrusterParameters& paramete
     parameters.validate();
     experiments.validate();
     RandomStream random(seed);
-    // All that is random is drawn in the records' order; then each can be simulated by itself.
+    // All random numbers are drawn in the order of the experiments; after that each experiment can be simulated
+    // separately.
     std::vector<ThrusterRecord> records;
     std::vector<ThrusterNormals> normals;
     for (const ChirpShape shape : {ChirpShape::kSine, ChirpShape::kSquare}) {

@@ -50,7 +50,8 @@ struct ThrusterTruth {
     double slow_time_constant;              ///< of the speed at rest, J R/K^2, s
     double fast_time_constant;              ///< of small changes of the speed at full width forwards, s
 };
-/// What the record should tell, from the parameters by formula. Throws InvalidArgument as their validate() does.
+/// True values of the quantities that the data show, computed from the parameters. Throws InvalidArgument as their
+/// validate().
 ThrusterTruth thruster_truth(const ThrusterParameters& parameters);
 
 /// Chirps about neutral, each between two rests at neutral.
@@ -74,7 +75,7 @@ struct ThrusterRecord {
 /// Readings to a given sequence of pulse widths, from rest; equal seeds give equal ones.
 Vector simulate_thruster(const ThrusterParameters& parameters, const Vector& pwm, double Ts, std::uint32_t seed);
 
-/// A sine and a square chirp of every amplitude; equal seeds give equal records, and each has noise of its own.
+/// A sine and a square chirp of every amplitude, each with independent noise; equal seeds give equal data.
 std::vector<ThrusterRecord> simulate_thruster(const ThrusterParameters& parameters,
                                               const ThrusterExperiments& experiments, std::uint32_t seed);
 

@@ -10,8 +10,8 @@ namespace dynlab::inline numerics {
 /// reservoir, each by the law of Torricelli. With h1, h2 the levels (cm) and u the pump's voltage:
 ///     dh1/dt = -k1 sqrt(h1) + k4 u                         below the rim, else 0, and what is too much runs over,
 ///     dh2/dt =  k2 sqrt(h1) - k3 sqrt(h2) + overflow_part (k4 u - k1 sqrt(h1))+     the last term while h1 = height,
-/// h2 limited likewise. Of the levels only the lower one is measured: y = sensor_offset + sensor_gain h2 in volts,
-/// noisy and rounded. The kind of process of the cascaded tanks of Schoukens and Noel (2017), with numbers of our own.
+/// h2 is limited in the same way. Only the lower level is measured: y = sensor_offset + sensor_gain h2 in volts, noisy
+/// and rounded. The process is that of the cascaded tanks of Schoukens and Noel (2017), with other numbers.
 struct TwoTanksParameters {
     double k1 = 0.1;             ///< sqrt(cm)/s
     double k2 = 0.102;           ///< sqrt(cm)/s; differs from k1 as the tanks' areas do
@@ -28,8 +28,8 @@ struct TwoTanksParameters {
     void validate() const;
 };
 
-/// A multisine with the lowest `lines` frequencies of the record, equal amplitudes and phases of chance, limited to
-/// what the pump takes. The pump has run at `start_voltage` for long before.
+/// A multisine with the lowest `lines` frequencies of the data, equal amplitudes and random phases, limited to the
+/// range of the pump. The pump has run at `start_voltage` for a long time before.
 struct TwoTanksExperiments {
     int samples = 1024;
     int lines = 59;               ///< the highest is lines/(samples Ts)
@@ -60,7 +60,7 @@ Matrix two_tanks_levels(const TwoTanksParameters& parameters, const Vector& volt
 struct TwoTanksRecords {
     PlantData estimation, validation;  ///< two choices of phases
 };
-/// Equal seeds give equal records.
+/// Equal seeds give equal data.
 TwoTanksRecords simulate_two_tanks(const TwoTanksParameters& parameters, const TwoTanksExperiments& experiments,
                                    std::uint32_t seed);
 

@@ -12,7 +12,7 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr int kMaxFilterOrder = 20;
-constexpr double kTransientLeft = 1e-6;  // part of a transient that is left behind the continuation of a record
+constexpr double kTransientLeft = 1e-6;  // part of a transient that remains after the continuation of a signal
 
 /// The filter in the plane s = (z - 1)/(z + 1): edges tan(w Ts/2), and the kind of band.
 struct Analog {
@@ -98,7 +98,7 @@ void add_sections(Complex prototype, const Analog& filter, FilterSections& secti
     }
 }
 
-/// Transposed direct form of one section, in place. `past` is what the input was before the record.
+/// Transposed direct form of one section, in place. `past` is the input before the first sample.
 void run_section(const FilterSection& f, Vector& x, double past) {
     const double gain = (f.b0 + f.b1 + f.b2) / (1 + f.a1 + f.a2), level = gain * past;
     double s1 = level - f.b0 * past, s2 = f.b2 * past - f.a2 * level;

@@ -13,10 +13,10 @@ struct PassBand {
 
 struct FilterOptions {
     int order = 5;            ///< of the low-pass prototype, 1 to 20; filters with two edges have twice as many poles
-    bool zero_phase = false;  ///< forwards, then backwards over the record: no delay, and the magnitude squared
+    bool zero_phase = false;  ///< forwards, then backwards over the signal: no delay, and the magnitude squared
     bool stop = false;        ///< takes the band out instead
-    /// Past of the record, causal filters only: zero, or the first sample for ever. Zero keeps the relation y = G u of
-    /// a system that starts at rest; the first sample is for signals around an operating point.
+    /// Past of the signal, causal filters only: zero, or the value of the first sample. Zero keeps the relation y = G u
+    /// of a system that starts at rest; the first sample is for signals around an operating point.
     bool steady_start = false;
 
     void validate() const;
@@ -40,8 +40,8 @@ ComplexVector response(const FilterSections& sections, const VectorView& w, doub
 
 /// One signal through all sections, once forwards.
 Vector filter_signal(const FilterSections& sections, const VectorView& x, bool steady_start = false);
-/// Forwards and backwards, over a record continued at both ends by its own point reflection, so that levels and slopes
-/// pass the ends without a jolt.
+/// Filters forwards and backwards. The signal is continued at both ends by point reflection, so that levels and slopes
+/// pass the ends without a jump.
 Vector filter_zero_phase(const FilterSections& sections, const VectorView& x);
 
 /// The same Butterworth filter over all inputs and outputs of all experiments, which leaves the relation between them

@@ -4,8 +4,8 @@
 
 namespace dynlab::inline numerics {
 
-/// Input signals for experiments. Frequencies in hertz, times in seconds; samples stand at 0, Ts, 2 Ts, ... and a
-/// signal of `duration` T holds round(T/Ts) of them. All throw InvalidArgument for sizes or times that are
+/// Input signals for experiments. Frequencies in hertz, times in seconds; the samples are at 0, Ts, 2 Ts, ..., and a
+/// signal of `duration` T contains round(T/Ts) of them. All functions throw InvalidArgument for sizes or times that are
 /// not positive and for frequencies below zero or above half the sampling frequency.
 
 /// `low`, and from sample `first` (1-based, 1..count + 1) on `high`.

@@ -10,7 +10,7 @@ Vector point_reflected(const VectorView& x, Index margin) {
         extended.setConstant(x[0]);
         return extended;
     }
-    const Index period = 2 * (N - 1);  // after two reflections a record is shifted by twice its rise
+    const Index period = 2 * (N - 1);  // after two reflections a signal is shifted by twice its rise
     const auto folded = [&](Index k) {
         const Index turns = k >= 0 ? k / period : -((period - 1 - k) / period);
         const Index rest = k - turns * period;

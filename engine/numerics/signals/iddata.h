@@ -6,17 +6,18 @@
 
 namespace dynlab::inline numerics {
 
-/// How a signal behaves between its samples: held (zoh) or on straight lines (foh).
+/// How a signal behaves between its samples: held (zoh) or linearly interpolated (foh).
 enum class Hold { kZoh, kFoh };
 
-/// One uninterrupted record. Rows are samples, columns are channels.
+/// Data of one uninterrupted experiment. Rows are samples, columns are channels.
 struct Experiment {
     Matrix y;               ///< N x ny outputs
     Matrix u;               ///< N x nu inputs (nu = 0 for a time series)
     Vector t;               ///< sampling instants in time_unit when sampled irregularly, else empty
     double start_time = 0;  ///< time of the first sample, in time_unit
     std::string name;
-    Matrix r = Matrix();  ///< N x nr references of the loop under which the record was taken; empty without
+    Matrix r = Matrix();  ///< N x nr references of the control loop in which the data were recorded; empty without a
+                          ///< loop
 };
 
 /// Input-output data as the course's `iddata`: one or several experiments with the same channels and sampling

@@ -14,10 +14,10 @@ struct LaggedColumns {
 };
 
 /// The sums of products M'M of such columns over the rows `first` .. `first` + `rows` - 1 (0-based, every lag reaches
-/// into the signals). The products of two signals at all their lags follow from those with one of them at its first lag
-/// by adding a product at the beginning and taking one off at the end, so the cost is rows x columns rather than
-/// rows x columns^2; where that would cost digits (a signal that grows by magnitudes) every sum is made by itself.
-/// The caller vouches for the ranges.
+/// into the signals). The products of two signals at all their lags follow from those with one of them at its first
+/// lag: one product is added at the beginning and one subtracted at the end. The cost is therefore rows x columns
+/// instead of rows x columns^2. If that would cost digits (a signal that grows by magnitudes), every sum is computed
+/// separately. The caller must ensure that the ranges are valid.
 Matrix lagged_gram(const std::vector<LaggedColumns>& columns, Index first, Index rows);
 
 }  // namespace dynlab::inline numerics

@@ -14,9 +14,9 @@ inline IdData remove_mean(IdData data) {
     return detrend(std::move(data), TrendKind::kConstant);
 }
 
-/// Removes from every channel its mean over the stretch before anything happens, so that the record starts from rest at
-/// zero: the first `samples` samples, or, when that is 0, those over which every input stays within 5 % of its range of
-/// its first value. Throws InvalidArgument when that stretch is shorter than three samples, for `samples` beyond an
+/// Removes from every channel its mean over the initial range at rest, so that the data start from rest at zero. The
+/// range is the first `samples` samples, or, if that is 0, those over which every input stays within 5 % of its range
+/// of its first value. Throws InvalidArgument if the range is shorter than three samples, for `samples` beyond an
 /// experiment, and for data without inputs unless `samples` is given.
 IdData remove_initial_level(IdData data, Index samples = 0);
 

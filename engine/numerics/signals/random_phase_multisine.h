@@ -22,10 +22,10 @@ struct RandomPhaseMultisine {
 };
 
 /// One period of a sum of cosines of equal amplitude whose phases come from `phases`, evenly over the circle: one
-/// realization; another call gives the next. Which lines detect is drawn from a stream of its own, so that all
-/// realizations of the same options have the same lines. With many lines samples are nearly normally distributed,
-/// unless peaks are lowered: by clipping and giving the lines back their amplitudes (Van der Ouderaa, Schoukens and
-/// Renneboog 1988). Odd lines with some left out tell even and odd distortion apart (Pintelon and Schoukens 2012,
+/// realization; another call gives the next. The detection lines come from a separate random stream, so that all
+/// realizations of the same options have the same lines. With many lines the samples are nearly normally distributed,
+/// unless peaks are lowered: by clipping and restoring the amplitudes of the lines (Van der Ouderaa, Schoukens and
+/// Renneboog 1988). Odd lines with some left out distinguish even from odd distortion (Pintelon and Schoukens 2012,
 /// chapter 4). Throws InvalidArgument for a period of fewer than 8 samples, lines that are not whole numbers within the
 /// range or occur twice, no line left, groups of fewer than 2 lines, and an amplitude that is not positive.
 RandomPhaseMultisine random_phase_multisine(Index period, const RandomPhaseOptions& options, RandomStream& phases);

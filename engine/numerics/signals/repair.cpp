@@ -47,8 +47,8 @@ RepairedSignal bridged(const VectorView& x, const VectorView& t, const std::vect
     return result;
 }
 
-/// The step of the grid on which the samples lie, 0 for none. Of a record that rests but for one sample, or one in a
-/// hundred, the distance of these says nothing of a grid: it is that of the outliers.
+/// The step of the grid on which the samples lie, 0 for none. If a signal is constant except for one sample, or one in
+/// a hundred, the distance of these samples is no grid step: it is that of the outliers.
 double usual_step(const VectorView& x) {
     const double rest = median(x);
     const double rounding = 1e-9 * (x.maxCoeff() - x.minCoeff());

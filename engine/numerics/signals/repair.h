@@ -31,14 +31,13 @@ struct OutlierOptions {
     void validate() const;
 };
 
-/// Hampel's rule: a sample farther from the median of the samples around it than the threshold times the scatter is an
-/// outlier and becomes the value of the straight line between its good neighbors. The scatter is the larger of 1.4826
-/// times the median distance inside the window (so that fast passages of the signal are not suspected) and the noise of
-/// the whole record, 1.4826 times the median of its second differences over sqrt(6); flicker by one and a half
-/// quantization steps never counts, but for a record at rest from which one sample in a hundred or fewer stand out. A
-/// step stays, because a median passes it on unchanged. Throws InvalidArgument for samples that are not finite.
-/// Reference: Pearson (2002), Outliers in process modeling and identification, IEEE Transactions on Control Systems
-/// Technology 10.
+/// Hampel's rule: a sample is an outlier if its distance from the median of the samples around it exceeds the threshold
+/// times the scatter. Linear interpolation between its good neighbors replaces it. The scatter is the larger of 1.4826
+/// times the median distance inside the window (so that fast parts of the signal are not suspected) and the noise of
+/// the entire signal, 1.4826 times the median of its second differences over sqrt(6). A change of up to one and a half
+/// quantization steps never counts, except in a constant signal from which one sample in a hundred or fewer differ. A
+/// step stays, because a median does not change it. Throws InvalidArgument for samples that are not finite. Reference:
+/// Pearson (2002), Outliers in process modeling and identification, IEEE Transactions on Control Systems Technology 10.
 RepairedSignal replace_outliers(const VectorView& x, const OutlierOptions& options = {});
 
 }  // namespace dynlab::inline numerics

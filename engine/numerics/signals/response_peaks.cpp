@@ -10,7 +10,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kSegments = 4;  // of the shortest record
+constexpr Index kSegments = 4;  // of the shortest experiment
 constexpr Index kShortestSegment = 64, kLongestSegment = 8192;
 constexpr Index kNeighbors = 2;  // on each side, below a peak
 

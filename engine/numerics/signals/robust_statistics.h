@@ -8,7 +8,7 @@ namespace dynlab::inline numerics {
 /// The middle of the values, of an even number the mean of the two in the middle. Needs at least one.
 double median(std::vector<double> values);
 double median(const VectorView& values);
-/// What a part of the rising values lies below, on straight lines between neighbors. Needs at least one value.
+/// The value below which `part` of the rising values lie, by linear interpolation. Needs at least one value.
 double quantile_of_sorted(const VectorView& values, double part);
 /// The root of the mean square of what is left without the mean.
 double standard_deviation(const VectorView& x);

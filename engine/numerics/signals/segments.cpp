@@ -21,7 +21,7 @@ void check_segments(const std::string& caller, const IdData& data, const std::ve
                                   segment.first, segment.last, count);
 }
 
-/// A sample that stands in two stretches would count twice.
+/// A sample in two segments would count twice.
 void check_apart(std::vector<Segment> kept) {
     std::sort(kept.begin(), kept.end(), [](const Segment& a, const Segment& b) { return a.first < b.first; });
     for (std::size_t i = 1; i < kept.size(); ++i)

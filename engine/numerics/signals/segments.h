@@ -6,14 +6,14 @@
 
 namespace dynlab::inline numerics {
 
-/// Samples first..last of a record, 1-based, inclusive.
+/// Samples first..last of an experiment, 1-based, inclusive.
 struct Segment {
     Index first, last;
 };
 
-/// These stretches of a record (one experiment), each as an experiment of its own that keeps its times, in the order
-/// given. Throws InvalidArgument for no stretch, for one that is empty or reaches outside the record, and for two that
-/// overlap.
+/// Returns these segments of the data (one experiment), each as a separate experiment that keeps its times, in the
+/// given order. Throws InvalidArgument for no segment, for an empty segment or one that reaches outside the data, and
+/// for two that overlap.
 IdData keep_segments(const IdData& data, const std::vector<Segment>& kept);
 
 /// What is left when these stretches, which may overlap, are cut out. Leftovers shorter than `shortest` samples go too.

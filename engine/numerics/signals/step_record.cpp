@@ -129,7 +129,7 @@ Index smoothing_window(const StepRecord& record, double widest_window) {
     return static_cast<Index>(std::min(requested, widest_window * static_cast<double>(rough_rise(record))));
 }
 
-// The record's output with single outliers replaced by the middle one of three neighbors.
+// The output with single outliers replaced by the median of three neighbors.
 Vector without_outliers(const StepRecord& record) {
     const double allowed = 6 * record.noise_std + 0.25 * std::abs(record.output_change());
     Vector y = record.y;

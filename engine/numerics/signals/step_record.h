@@ -12,10 +12,10 @@ struct Level {
 
 /// One step experiment, taken apart: what every reading of a step response starts from.
 struct StepRecord {
-    Vector t, u, y;           ///< the record, N values each
-    Index step_index = 0;     ///< first sample with the new input; 0 when the record begins with the step
+    Vector t, u, y;           ///< the data, N values each
+    Index step_index = 0;     ///< first sample with the new input; 0 if the data begin with the step
     double step_time = 0;     ///< its instant, s
-    double input_before = 0;  ///< 0 when the record begins with the step
+    double input_before = 0;  ///< 0 if the data begin with the step
     double input_after = 0;
     Level initial;  ///< output before the step (at the step when nothing was recorded before it)
     Level final;    ///< output at the end
@@ -30,12 +30,12 @@ struct StepRecord {
     double crossing_time(double part) const;
 };
 
-/// Finds the step in one-input one-output data of one experiment. The input must hold one level, then another
-/// (departures up to a tenth of the step are taken for noise); an input that is constant and not zero counts as a
-/// step from zero at the first sample. The response must have settled by the end. The window of the smoothing is as
-/// wide as needed to bring the noise to 0.25 % of the step, and at most `widest_window` times the rise from 28.3 % to
-/// 63.2 %, so that a parabola still follows the response; single outliers are passed over. Throws InvalidArgument that
-/// says why a record is no step experiment.
+/// Finds the step in one-input one-output data of one experiment. The input must have one level, then another
+/// (deviations up to a tenth of the step count as noise); an input that is constant and not zero counts as a step from
+/// zero at the first sample. The response must have settled by the end. The smoothing window is as wide as needed to
+/// reduce the noise to 0.25 % of the step, and at most `widest_window` times the rise from 28.3 % to 63.2 %, so that a
+/// parabola still follows the response; single outliers are ignored. Throws InvalidArgument with the reason if the data
+/// are not those of a step experiment.
 StepRecord read_step_record(const IdData& data, double widest_window = 2);
 
 }  // namespace dynlab::inline numerics

@@ -115,7 +115,7 @@ StateSpace continuous_loop(const LoopPlant& plant, const TransferFunction& contr
     return {motion.leftCols(total), motion.rightCols(2), outputs.leftCols(total), outputs.rightCols(2)};
 }
 
-/// States: the plant's, the last inputs u[k-1], u[k-2], ... as far as delays need them, the controllers'.
+/// States: the plant's, the last inputs u[k-1], u[k-2], ... that the delays need, the controllers'.
 StateSpace sampled_loop(const LoopPlant& plant, double delay, const LoopController& controller, double Ts) {
     const StateSpace& form = plant.form;
     const SampledSystem G = discretize(form.A, form.B.col(0), form.C, form.D.col(0), Ts, Hold::kZoh, delay);

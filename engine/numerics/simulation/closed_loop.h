@@ -6,17 +6,17 @@
 namespace dynlab::inline numerics {
 
 /// The controller of a loop u = C (r - y), y = G u + v: in continuous time, or in discrete time with the sampling time
-/// of the records, whose u is then held until the next sample.
+/// of the data, whose u is then held until the next sample.
 struct LoopController {
     TransferFunction C;
-    Index computing_delay = 0;  ///< samples from reading y to the u that answers it, besides C's own delay; sampled C
+    Index computing_delay = 0;  ///< samples from reading y to the resulting u, in addition to C's delay; sampled C
 
     bool sampled() const { return !C.continuous(); }
 };
 
 /// A single loop at the instants k Ts, exact: the plant by matrix exponentials, a sampled controller by its difference
-/// equation. `v` is added to the output that the controller reads. With a controller in continuous time r runs as
-/// `hold` says and v on straight lines between its samples; u then moves between them, too.
+/// equation. `v` is added to the output that the controller reads. With a controller in continuous time r behaves
+/// between samples as `hold` says, and v is linearly interpolated; u then changes between samples, too.
 class ClosedLoop {
   public:
     /// Throws InvalidArgument for a plant in discrete time, improper models, a controller of another sampling time,
@@ -34,11 +34,11 @@ class ClosedLoop {
     Response to_disturbance(const VectorView& v) const { return response(v, 1, Hold::kFoh); }
 
     /// d x/d [a_1 .. a_n b_0 .. b_zeros] of to_reference(r).x, N x (n + zeros + 1), for a plant B/A whose B has the
-    /// degree `zeros`: bounded where the loop is stable, whatever the plant by itself is. Exact: beside the loop runs
-    /// its derivative, a loop of the same poles driven by the first one's signals.
+    /// degree `zeros`: bounded if the loop is stable, even for an unstable plant. The result is exact: the derivative
+    /// is a second loop with the same poles, driven by the signals of the first.
     Matrix sensitivities(const VectorView& r, int zeros) const;
 
-    /// The record of r and v together: y = x + v, u, and the reference r. Its hold is zoh with a sampled controller and
+    /// The data of r and v together: y = x + v, u, and the reference r. The hold is zoh with a sampled controller and
     /// foh with one in continuous time, whose u between the samples neither hold describes exactly. Throws
     /// InvalidArgument for signals of different lengths and an unstable loop.
     IdData record(const VectorView& r, const VectorView& v) const;

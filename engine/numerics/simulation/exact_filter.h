@@ -4,10 +4,10 @@
 
 namespace dynlab::inline numerics {
 
-/// Runs a SampledSystem over long records. Four samples are advanced together: their outputs and the state after
-/// them are linear in the state before and in the samples they see, so one small matrix product takes the place of
-/// four dependent steps. Orders 1 to 6, 8 and 10 have loops of fixed size, others a loop of any size. The results
-/// agree with the sample-by-sample recursion to rounding.
+/// Runs a SampledSystem over long signals. Four samples advance together: their outputs and the state after them are
+/// linear in the state before and in the input samples, so one small matrix product replaces four dependent steps.
+/// Orders 1 to 6, 8 and 10 have loops of fixed size, others a loop of any size. The results agree with the
+/// sample-by-sample recursion to rounding.
 class ExactFilter {
   public:
     explicit ExactFilter(SampledSystem system);

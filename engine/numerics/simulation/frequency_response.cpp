@@ -82,7 +82,7 @@ Vector phase_degrees(const TransferFunction& G, const VectorView& w) {
                 sum += G.continuous() ? angle_of_root(root, w[i]) : angle_of_discrete_root(root, w[i] * G.Ts());
             return sum;
         };
-        // The roots tell how many turns there are, the response the angle to the last digit.
+        // The roots determine the number of turns, the response the exact angle.
         const double turned = kDegrees * (angle(zeros) - angle(poles)) + (negative ? kTurn / 2 : 0);
         const double exact = kDegrees * std::arg(response[i]);
         phase[i] = exact + kTurn * std::round((turned - exact) / kTurn) - kDegrees * w[i] * G.delay();

@@ -12,7 +12,7 @@ namespace dynlab::inline numerics {
 /// The inputs of a simulation and its instants.
 struct GreyInputs {
     Matrix u;  ///< N x nu
-    Vector t;  ///< N instants, in the unit of the record's time (s)
+    Vector t;  ///< N instants, in the time unit of the data (s)
     Hold hold = Hold::kZoh;
 };
 
@@ -20,7 +20,7 @@ struct GreyInputs {
 /// these parameters; nothing for any other.
 std::optional<StateSpace> linear_system_of(const GreyModel& model, const Vector& parameters);
 
-/// What is simulated besides the outputs.
+/// Derivatives that are simulated in addition to the outputs.
 struct GreyDirections {
     std::vector<Index> parameters;  ///< d: with respect to which the evaluation differentiates
     std::vector<Index> states;      ///< whose initial values are directions, too
@@ -46,7 +46,7 @@ class GreySimulator {
     /// The model's own x(t_1).
     Vector initial_state(const Vector& parameters);
     struct Start {
-        const Vector* replaced = nullptr;  ///< x(t_1) in the place of the model's own
+        const Vector* replaced = nullptr;  ///< x(t_1) instead of the model's
         Vector estimated = {};             ///< then of the states among the directions
     };
     /// Throws SimulationBreakdown.

@@ -8,7 +8,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-/// Where a step stands, the first one at 0.
+/// The position of a step; the first is 0.
 [[gnu::always_inline]] inline Index place_of_step(Index step) {
     constexpr std::size_t kBlock = IrregularEvents::kBlock, kStretch = IrregularEvents::kStretch;
     const auto number = static_cast<std::size_t>(step), inside = number % kBlock;

@@ -7,16 +7,17 @@
 
 namespace dynlab::inline numerics {
 
-/// The steps of a filter over a record sampled at rising instants t, whose input u(t - delay), zero before its first
-/// sample, is held or runs straight between its samples: from one sampling instant, or change of the delayed input
-/// between two, to the next, from the first sample to the last. They come in blocks of eight stretches; steps that are
-/// run side by side lie beside each other, and those that fill up the last block take no time.
+/// The steps of a filter over a signal sampled at rising instants t. The input u(t - delay) is zero before its first
+/// sample, and held or linearly interpolated between samples. Each step leads from one sampling instant, or change of
+/// the delayed input between two, to the next, from the first sample to the last. The steps form blocks of eight
+/// stretches. Steps that run side by side are adjacent in memory, and those that fill up the last block have length
+/// zero.
 struct IrregularEvents {
     static constexpr Index kSideBySide = 8, kStretch = 32;  // steps of a stretch, one behind the other
     static constexpr Index kBlock = kSideBySide * kStretch;
 
     Vector length;              ///< s
-    Vector input, slope;        ///< at the beginning; slopes (1/s) with straight lines only
+    Vector input, slope;        ///< at the beginning; slopes (1/s) with linear interpolation only
     std::vector<Index> sample;  ///< that is reached, -1 for none
     Index count = 0;            ///< a multiple of kBlock
 
@@ -34,8 +35,8 @@ struct IrregularEvents {
     void add(double seconds, double value, double rise, Index reached);
 };
 
-/// Those of a record that a search filters again and again: the last few of each thread are kept and known by what they
-/// were made of, but for long records, whose events would take too much memory.
+/// The events of a signal that a search filters repeatedly. Each thread caches its last few, with the arguments as the
+/// key, except for long signals, whose events would take too much memory.
 std::shared_ptr<const IrregularEvents> recent_events(const VectorView& u, const VectorView& t, Hold hold, double delay);
 
 /// u(t - delay) at the instants t.

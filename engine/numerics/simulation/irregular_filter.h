@@ -12,11 +12,11 @@ namespace dynlab::inline numerics {
 /// input is zero before its first sample. A is a companion matrix or two of the same in series (companion_pair.h), B
 /// the first unit vector.
 ///
-/// Events are taken in blocks of eight stretches, which are run side by side: first from rest, which tells with the map
-/// of each whole stretch where they begin, then from there. The maps of their steps are made side by side, too, so that
-/// nothing waits for the step before it but the state: mode by mode where these can be told apart and the system starts
-/// at rest (eight_modes.h), otherwise by power series (eight_steps.h). Nothing is refused: sizes that agree and rising
-/// instants are the caller's.
+/// Events are processed in blocks of eight stretches, which run side by side: first from rest, which together with the
+/// map of each complete stretch determines their initial states, then from these states. The maps of their steps are
+/// also computed side by side, so that only the state depends on the previous step. The maps are computed mode by mode
+/// if the modes are distinct and the system starts at rest (eight_modes.h), otherwise by power series (eight_steps.h).
+/// The filter does not check its arguments: the caller must provide sizes that agree and rising instants.
 class IrregularFilter {
   public:
     IrregularFilter(const Matrix& A, const Vector& B, Matrix C, Vector D, Hold hold, double delay = 0);

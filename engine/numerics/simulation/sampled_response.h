@@ -4,9 +4,9 @@
 
 namespace dynlab::inline numerics {
 
-/// What samples of Ts seconds show of the outputs N_i(s)/D(s) exp(-delay s) of one input that is held (zoh) or runs on
-/// straight lines (foh) between them: their responses at exp(i w Ts), exact, a column each. `numerators` holds N_i in
-/// rows, the power of D's degree q first; D is monic (q + 1 coefficients); w in rad/s, the delay in seconds. NaN where
+/// The sampled outputs (every Ts seconds) of N_i(s)/D(s) exp(-delay s), with one input that is held (zoh) or linearly
+/// interpolated (foh) between samples: their responses at exp(i w Ts), exact, a column each. `numerators` has N_i in
+/// its rows, the power of D's degree q first; D is monic (q + 1 coefficients); w in rad/s, the delay in seconds. NaN if
 /// a pole lies on the point itself.
 Eigen::MatrixXcd sampled_responses(const MatrixView& numerators, const VectorView& denominator, const VectorView& w,
                                    double Ts, Hold hold, double delay = 0);

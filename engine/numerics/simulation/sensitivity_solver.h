@@ -30,8 +30,8 @@ class SensitivitySolver {
 
     Vector x;     ///< n
     RowMatrix S;  ///< n x D
-    /// Moves from t_begin to t_end (the unit of the record) with inputs on straight lines between these values. Throws
-    /// SimulationBreakdown.
+    /// Advances from t_begin to t_end (time unit of the data) with inputs linearly interpolated between these values.
+    /// Throws SimulationBreakdown.
     void advance(double t_begin, double t_end, const double* u_begin, const double* u_end);
     bool is_stiff() const { return implicit_; }
     /// The first times at which no step was short enough for the tolerance (an equation with jumps).

@@ -103,7 +103,7 @@ std::vector<StabilityMargins::Crossover> axis_crossovers(const TransferFunction&
 }
 
 /// The part of the axis to search for crossovers of the unit circle: far beyond the corner frequencies and the delay,
-/// and as far as an integrator, or a large gain, puts the crossover.
+/// and up to the crossover of an integrator or a large gain.
 struct Range {
     double first, last;
 };

@@ -9,8 +9,8 @@ namespace dynlab::inline numerics {
 constexpr Index kSideBySide = IrregularEvents::kSideBySide;
 using Eight = Eigen::Array<double, kSideBySide, 1>;
 
-/// Where the parts of a map stand, of a companion system of kOrder states x, and (kTwice) of a second one w behind it,
-/// for an input that begins at u and runs with slope s (1/s):
+/// Positions of the parts of a map, of a companion system of kOrder states x, and (kTwice) of a second one w behind it,
+/// for an input that begins at u and has slope s (1/s):
 ///     x -> x + E x + G u + R s,   w -> w + L x + E w + H u + S s.
 /// A map is the entries of E (row by row), G, L, H, R, S.
 template <int kOrder, bool kTwice>

@@ -53,8 +53,8 @@ Vector response_from_zero(const TransferFunction& G, const VectorView& t, double
     return lsim(G, u, instants, Hold::kZoh, x0).tail(t.size());
 }
 
-/// The window in which a pole's part of the response is seen whole, in seconds; 0 for a pole without a time of its
-/// own (an integrator).
+/// The time window that shows a pole's complete part of the response, in seconds; 0 for a pole without a time constant
+/// or period (an integrator).
 double window(const PoleDescription& row) {
     constexpr double kSettled = 5 / 0.8, kGrown = 5, kPeriods = 10;  // time constants, time constants, periods
     if (std::isfinite(row.time_constant))

@@ -41,8 +41,8 @@ class BurgLattice {
     }
 
   private:
-    /// f(k) and b(k-1) for k = order .. length-1 of each record. b(k-1) is kept where k - order lies, so that the
-    /// errors of every order begin at the front.
+    /// f(k) and b(k-1) for k = order .. length-1 of each experiment. b(k-1) is stored at k - order, so that the errors
+    /// of every order begin at the front.
     template <class Work>
     void for_each_record(const Work& work) {
         Index first = 0;
@@ -67,7 +67,7 @@ Vector with_reflection(const Vector& a, double reflection) {
     return next;
 }
 
-/// The predictor of the k-th value of a record: of a lower order while fewer values stand before it.
+/// The predictor of the k-th value of an experiment: of a lower order while fewer values precede it.
 const Vector& predictor_at(const Autoregression& model, Index k) {
     return model.predictors[static_cast<std::size_t>(std::min(k, model.order()))];
 }

@@ -20,25 +20,25 @@ struct Autoregression {
 /// N log(variance) + p log N, where a term too many does; or the highest.
 enum class AutoregressiveOrder { kAicc, kBic, kMaxInteger };
 
-/// The autoregression of `e` by Burg's method (Kay 1988, section 7.3). No mean is taken off. `lengths` (summing to the
-/// number of values) tells uninterrupted records apart. Orders reach up to `most`, chosen ones no further than a
-/// quarter of the longest record, and end where nothing is left to predict. A signal that is zero has order 0. Throws
-/// InvalidArgument for lengths that do not add up and for values that are not finite.
+/// The autoregression of `e` by Burg's method (Kay 1988, section 7.3). The mean is not subtracted. `lengths` (summing
+/// to the number of values) are the lengths of uninterrupted parts. Orders are at most `most`, selected orders at most
+/// a quarter of the longest part, and they end when nothing is left to predict. A signal that is zero has order 0.
+/// Throws InvalidArgument for lengths that do not add up and for values that are not finite.
 Autoregression fit_autoregression(const VectorView& e, const std::vector<Index>& lengths, Index most,
                                   AutoregressiveOrder choice = AutoregressiveOrder::kAicc);
 
 /// The highest order worth trying for N values: 20 log10 N, enough for the sum of a slow and of a white noise.
 Index highest_autoregressive_order(Index N);
 
-/// x(k) + a_1 x(k-1) + ... + a_p x(k-p) of an uninterrupted record for all k whose past is in it: x.size() - p values,
+/// x(k) + a_1 x(k-1) + ... + a_p x(k-p) of an uninterrupted signal for all k whose past is in it: x.size() - p values,
 /// of p samples at least.
 Vector filtered_past(const Autoregression& model, const VectorView& x);
 
-/// w of the records. The first p values are the errors of the lower orders' predictions, larger and as white: what the
-/// unseen past has left behind is in them.
+/// w of all uninterrupted parts. The first p values are the errors of the lower orders' predictions, larger and as
+/// white: they contain the effect of the unobserved past.
 Vector whitened(const Autoregression& model, const VectorView& e, const std::vector<Index>& lengths);
 
-/// Column by column the transposed operation of coloring w into e, from the end of each record to its start: x(k) with
+/// Column by column the transposed operation of coloring w into e, from the end of each part to its start: x(k) with
 /// z'e = x'w for every e.
 Matrix colored_backwards(const Autoregression& model, const MatrixView& Z, const std::vector<Index>& lengths);
 

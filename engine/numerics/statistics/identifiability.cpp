@@ -11,7 +11,8 @@ constexpr double kNoEffect = 1e-10;    // of what the outputs vary
 constexpr double kAmbiguous = 1.5e-8;  // of the largest singular value
 constexpr double kTakesPart = 1e-3;    // in a singular vector
 
-/// "m +1 %, k -2 %": how the parameters change together, the most changed one by one per cent (or by one, at zero).
+/// "m +1 %, k -2 %": joint changes of the parameters. The most changed parameter changes by one per cent (or by one, at
+/// zero).
 MessageList changes_text(const std::vector<std::string>& names, const Vector& changes, const Vector& theta) {
     MessageList list;
     const double unit = 1 / changes.cwiseAbs().maxCoeff();

@@ -7,7 +7,7 @@
 
 namespace dynlab::inline numerics {
 
-/// Parameters, or combinations of them, that a record cannot tell.
+/// Parameters, or combinations of them, that the data do not determine.
 struct Ambiguity {
     std::vector<bool> parameters;    ///< those that are among them
     std::vector<Message> sentences;  ///< one on each, for users

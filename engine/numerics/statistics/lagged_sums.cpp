@@ -19,9 +19,9 @@ Matrix symmetric_toeplitz(const VectorView& c, Index size) {
     return P;
 }
 
-// With V the input moved on by a = 0..L within the record and T what is moved beyond its end (L rows), F = [V; T] is
-// whole, and F' R F the Toeplitz matrix of N g, R being that of Re. Z = [R F] in the rows of T gives what is wanted,
-// V' R V = F' R F - Z'T - T'Z + T' R T. The mean of e takes away another V'1 1'V sum(Re)/N, where 1'V = -1'T.
+// V is the input shifted by a = 0..L within the data, and T its part beyond the end (L rows). F = [V; T] is complete,
+// and F' R F is the Toeplitz matrix of N g, R being that of Re. Z = [R F] in the rows of T gives the result, V' R V =
+// F' R F - Z'T - T'Z + T' R T. The mean of e subtracts another V'1 1'V sum(Re)/N, where 1'V = -1'T.
 struct BeyondEnd {
     Matrix T, Z;
 };

@@ -27,18 +27,18 @@ struct RobustCovariance {
 ///     L = 1.1447 (alpha N)^(1/3),   alpha = mean_i 4 rho_i^2/((1 - rho_i)^2 (1 + rho_i)^2),
 /// N the number of instants, rounded up; it is 1 (White 1980) without any correlation. The result is positive
 /// semidefinite and does not depend on the parameters' units; the work is O(N d (d + p)), p the autoregression's order.
-/// `Z` is N x d, `e` has N values. Where several `outputs` were fitted together, both hold as many blocks of N/outputs
-/// rows, each output's at the same instants and with the weight that it had in the fit; v(k) is the sum over the
-/// outputs at one instant then, so that the errors of one output may depend on those of another. `lengths` (summing to
-/// N/outputs) tells uninterrupted records apart, which are taken as independent of each other; empty for one. Throws
-/// InvalidArgument for sizes that do not fit, values that are not finite, or N <= d.
+/// `Z` is N x d, `e` has N values. If several `outputs` were fitted together, both contain one block of N/outputs rows
+/// per output, at the same instants and with the weight of the output in the fit. v(k) then is the sum over the outputs
+/// at one instant, so that the errors of one output may depend on those of another. `lengths` (summing to N/outputs)
+/// are the lengths of uninterrupted parts, which are assumed to be independent of each other; empty for one part.
+/// Throws InvalidArgument for sizes that do not match, values that are not finite, or N <= d.
 RobustCovariance robust_covariance(const MatrixView& H, const MatrixView& Z, const VectorView& e,
                                    const std::vector<Index>& lengths = {}, Index outputs = 1);
 
-/// The same for an output-error estimate with sensitivities Psi = d simulated/d theta (N x d), with what short records
-/// need: each error is divided by one minus its leverage (HC3: MacKinnon and White 1985), and with one output and up to
-/// 100 samples no variance is smaller than for errors of one size, H X'X H mean(w^2) (Angrist and Pischke 2009, section
-/// 8.1).
+/// The same for an output-error estimate with sensitivities Psi = d simulated/d theta (N x d), with corrections for
+/// short data: each error is divided by one minus its leverage (HC3: MacKinnon and White 1985), and with one output and
+/// up to 100 samples no variance is smaller than for errors of one size, H X'X H mean(w^2) (Angrist and Pischke 2009,
+/// section 8.1).
 RobustCovariance robust_covariance(const MatrixView& Psi, const VectorView& e, const std::vector<Index>& lengths = {},
                                    Index outputs = 1);
 

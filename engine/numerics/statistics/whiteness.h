@@ -26,13 +26,15 @@ struct WhitenessTest {
     Message verdict;  ///< one sentence; empty for an error that is constant
 };
 
-/// Ljung and Box (1978), of one output's errors in one or several uninterrupted records, whose means are taken off
-/// first; for records too short for the lags fewer are tested. Throws InvalidArgument for options that make no sense.
+/// The test of Ljung and Box (1978), of one output's errors in one or several uninterrupted experiments, whose means
+/// are subtracted first. For data too short for the lags fewer lags are tested. Throws InvalidArgument for invalid
+/// options.
 WhitenessTest whiteness_test(const std::vector<Vector>& errors, const ResidualOptions& options = {});
 
 enum class ModelError { kOutput, kPrediction };
 
-/// The same test of errors `e` without mean whose covariances R of lags 0..L are known; its verdict names their kind.
+/// The same test of errors `e` without mean whose covariances R of lags 0..L are known; the text of its result names
+/// their kind.
 WhitenessTest whiteness_of_covariances(const std::vector<Vector>& e, const VectorView& R, double confidence,
                                        ModelError kind);
 

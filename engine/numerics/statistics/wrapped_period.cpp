@@ -10,7 +10,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-/// Mean square of what the last samples do not tell of the next one.
+/// Mean square error of predicting the next sample from the last ones.
 double prediction_error(const Vector& x) {
     constexpr Index kMemory = 10;
     const Vector centered = x.array() - x.mean();

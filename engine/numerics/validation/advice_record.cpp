@@ -15,7 +15,7 @@ namespace {
 
 constexpr Index kShortRecord = 5000, kMaxSearchSamples = 2500, kMaxSecondSearchSamples = 16000;  // samples
 constexpr double kFineSampling = 40;       // samples per turn of the fastest pole that a search can do with
-constexpr double kStraight = 1e-3;         // of the input's standard deviation, what straight lines may miss
+constexpr double kStraight = 1e-3;         // of the input's standard deviation: largest error of linear interpolation
 constexpr double kSearchTolerance = 1e-4;  // relative, of parameters
 constexpr double kSlowCycles = 20;         // over the window, below which a movement counts as slow
 constexpr double kHardlyWorse = 1.05;
@@ -117,7 +117,7 @@ IdData block_averages(const IdData& data, Index block) {
     return short_record;
 }
 
-/// The model from the whole record, with the start and the constant that BIC chooses, from where the search ended.
+/// The model from all samples, with the start and the constant that BIC selects, from the end of the search.
 void choose_start(DelaySearch& search, const IdData& data, FitOptions options) {
     Fit& found = search.candidate.estimate;
     options.initial_state = InitialState::kAuto;
@@ -167,8 +167,8 @@ bool has_slow_pole(const FittedRecord& fit, double turns) {
     return std::any_of(poles.begin(), poles.end(), [&](Complex p) { return std::abs(p) * duration < turns; });
 }
 
-/// The input moves the model alone: with a slow pole, a free motion from before the record is as good as a straight
-/// line.
+/// Whether the input alone explains the output: with a slow pole, a free motion from before the first sample is as good
+/// as a straight line.
 bool explains_from_rest(const FittedRecord& fit, double percent) {
     if (fit.simulation.start.state == InitialState::kZero) return fit.simulation.fit_percent > percent;
     return compare(fit.data, fit.model(), {InitialState::kZero, Offset::kEstimate}).fit_percent > percent;
@@ -179,7 +179,7 @@ bool is_integrator(const FittedRecord& fit) {
     return has_slow_pole(fit, 1) && explains_from_rest(fit, 80);
 }
 
-/// The window had not everything in it that the record has: a chirp begins slowly.
+/// Whether the window lacks motion that the data contain: a chirp begins slowly.
 bool is_not_typical(const FittedRecord& fit) {
     constexpr double kMore = 2;  // times the mean square error
     const bool longer = fit.data.sample_count() > fit.window.step * fit.window.data.sample_count();
@@ -187,7 +187,7 @@ bool is_not_typical(const FittedRecord& fit) {
     return longer && everywhere > kMore * fit.search.loss();
 }
 
-/// A longer one, from the beginning of the record.
+/// A longer window, from the beginning of the data.
 SearchWindow longer_window(const IdData& data, const SearchWindow& window) {
     const Index first = window.first % window.step;
     return {every(data, first, window.step, window.data.hold, kMaxSecondSearchSamples), first, window.step};
@@ -199,11 +199,11 @@ bool is_doubtful(const FittedRecord& fit) {
            has_slow_pole(fit, kSlowPole) || !fit.model().stable() || wanders(fit.error);
 }
 
-/// A regular record with one input and one output: the whole of it up to 5000 samples, of a longer one the first
-/// stretch of 2500 whose input moves at least half as much as in the median stretch. Of a record sampled more than 40
-/// times faster than a first model of two poles answers only every `step`th sample is taken, if nothing is lost by it:
-/// when a held input changes at these samples only, or when straight lines between them follow the input to within 1e-3
-/// of its standard deviation (the window then has hold foh).
+/// For regularly sampled data with one input and one output: all samples up to 5000; of longer data the first 2500
+/// samples in a row whose input varies at least half as much as the median of such stretches. If the data are sampled
+/// more than 40 times faster than the response of a first model of two poles, only every `step`th sample is used,
+/// provided that nothing is lost: if a held input changes at these samples only, or if linear interpolation between
+/// them follows the input to within 1e-3 of its standard deviation (the window then has hold foh).
 SearchWindow search_window(const IdData& data) {
     const Index N = data.sample_count();
     if (N <= kShortRecord) return {data, 0, 1};

@@ -11,20 +11,20 @@
 
 namespace dynlab::inline numerics {
 
-/// A stretch of a record that is searched for a model.
+/// A part of the data in which a model is searched.
 struct SearchWindow {
     IdData data;
-    Index first = 0;  ///< sample of the record (0-based) with which it begins
-    Index step = 1;   ///< so many samples of the record from one of its samples to the next
+    Index first = 0;  ///< its first sample in the data (0-based)
+    Index step = 1;   ///< samples of the data from one of its samples to the next
 };
 
-/// A record, the linear model that explains it best, and what the model leaves.
+/// Data, the linear model that explains them best, and the model's error.
 struct FittedRecord {
     IdData data;  ///< one experiment, one input, one output, regular sampling; findings take off y what is no response
     SearchWindow window;
     DelaySearch search;
-    CompareResult simulation;   ///< of the whole record
-    Vector error;               ///< of the whole record: y minus simulated output
+    CompareResult simulation;   ///< of all data
+    Vector error;               ///< of all data: y minus simulated output
     double movement_error = 0;  ///< rms error over rms output of the window, without slow movement where in doubt
     double disturbance = 0;     ///< standard deviation of the slow disturbance that was taken off y
     Vector taken_off = {};      ///< this disturbance; empty without one
@@ -45,15 +45,15 @@ struct FittedRecord {
     void take_off(const VectorView& part);  ///< of y, and simulates again
 };
 
-/// A model with one to three poles and a free delay. Its structure is looked for (search_delay) with a free start and a
-/// constant, from 10000 samples on in averages of both signals over blocks; then it is fitted to all samples with the
-/// start that BIC chooses. It comes from the window, or, where its mean square error in the record is twice that in the
-/// window, from up to 16000 samples. Where its error wanders, where it explains less than half, has a very slow or
-/// unstable pole, or needs a free motion from before the record, a second one is fitted to input and output behind the
-/// same high-pass filter, which slow disturbances hardly pass, and taken unless it explains these worse by more than 5
-/// %. An integrator that explains 80 % from rest and a constant is not doubted: it is not seen behind the filter either
-/// (a free motion of it, though, is what a drift looks like); nor is a model taken that explains the whole record worse
-/// than -50 %. Nothing when nothing can be fitted, or when canceled.
+/// A model with one to three poles and a free delay. search_delay finds its structure with a free start and a constant,
+/// for 10000 samples and more in averages of both signals over blocks. The model is then fitted to all samples with the
+/// start that BIC selects. It comes from the window, or, if its mean square error in all data is twice that in the
+/// window, from up to 16000 samples. A second model is tried if the error wanders, or if the model explains less than
+/// half, has a very slow or unstable pole, or needs a free motion from before the first sample. It is fitted to input
+/// and output behind the same high-pass filter, which attenuates slow disturbances, and used unless it explains these
+/// signals worse by more than 5 %. An integrator that explains 80 % from rest and a constant is kept: it is not visible
+/// behind the filter either (but its free motion looks like a drift). A model that explains all data worse than -50 %
+/// is not used. No value if no model can be fitted, or when canceled.
 std::optional<FittedRecord> fitted_record(const IdData& data, const std::function<bool()>& cancel);
 
 /// A finding about the output.
@@ -63,9 +63,9 @@ DataIssue about(const FittedRecord& fit, const char* code, Weight weight, const 
 MessageList listed_places(const std::vector<Segment>& segments);
 /// "3.2 V", or the number alone where it has no unit.
 Message with_unit(Number number, const std::string& unit);
-/// A number rounded to so many significant digits, shown without an exponent as far as six digits do: -110.
+/// A number rounded to `digits` significant digits, shown without an exponent if six digits suffice: -110.
 Number rounded(double value, int digits);
-/// A number with the digits that count when `resolution` is all that one can tell: 20.03 at 0.5 becomes 20.
+/// A number with the significant digits at the given `resolution`: 20.03 at 0.5 becomes 20.
 Number rounded_to(double value, double resolution);
 
 }  // namespace dynlab::inline numerics

@@ -34,7 +34,7 @@ void check_ranges(const ArxRanges& ranges) {
         throw InvalidArgument("more than {} structures would be tried: use smaller ranges", kMaxArxStructures);
 }
 
-/// The equations of the largest structure of one record: every other one's are columns of them.
+/// The equations of the largest structure for one data set: those of every other structure are columns of them.
 struct LargestEquations {
     LargestEquations(const IdData& data, const ArxRanges& ranges) : na(ranges.na.second), nk(ranges.nk.first) {
         if (data.input_count() != 1)
@@ -78,7 +78,7 @@ std::string orders_text(const ArxCandidate& candidate) {
            std::to_string(candidate.nk) + "}";
 }
 
-/// Points to a smaller structure that is hardly worse, where the loss alone has chosen.
+/// Suggests a smaller structure that is only slightly worse, if the loss alone was the criterion.
 std::optional<Message> simpler_arx(const ArxSelection& selection, std::size_t chosen) {
     const ArxCandidate *taken = &selection.candidates[chosen], *simplest = taken;
     for (const ArxCandidate& one : selection.candidates)

@@ -10,13 +10,13 @@ namespace dynlab::inline numerics {
 /// One structure A y = B u + e that was tried: na poles, nb coefficients of B, nk samples of delay.
 struct ArxCandidate {
     int na = 1, nb = 1, nk = 1;
-    double loss = 0;  ///< mean square of the errors of predicting one sample ahead, on the record of the estimation
-    std::optional<double> validation_loss;  ///< the same on the second record
+    double loss = 0;                        ///< mean square of the one-step prediction errors on the estimation data
+    std::optional<double> validation_loss;  ///< the same on the validation data
     double aic = 0, bic = 0;                ///< of `loss` (validation/fit_measures.h); Ljung calls the BIC MDL
-    bool determined = true;                 ///< the record tells the parameters apart
+    bool determined = true;                 ///< the data determine the parameters
 
     int parameters() const { return na + nb; }
-    /// On the second record where there is one.
+    /// On the validation data, if any.
     double comparison_loss() const { return validation_loss.value_or(loss); }
 };
 
@@ -33,19 +33,20 @@ struct ArxRanges {
 
 /// Estimates every structure in the ranges by least squares on `data` (one input, one output, any number of
 /// experiments, regular sampling), and predicts `validation` with it. All structures are compared over the same
-/// samples: those whose whole past the largest of them has on record. One pass over each record makes the triangular
-/// factor of the largest structure's equations; the others are columns of it. Throws InvalidArgument for other data,
-/// empty or absurd ranges, and records too short. Reference: Ljung (1999), section 16.4.
+/// samples: those for which the data contain the entire past that the largest structure needs. One pass over each data
+/// set computes the triangular factor of the largest structure's equations; the others are columns of it. Throws
+/// InvalidArgument for other data, empty or invalid ranges, and data that are too short. Reference: Ljung (1999),
+/// section 16.4.
 ArxSelection select_arx(const IdData& data, const ArxRanges& ranges, const IdData* validation = nullptr);
 
-/// kLoss: on the second record where there is one.
+/// kLoss: on the validation data, if any.
 enum class ArxCriterion { kLoss, kAic, kBic };
 /// The value that is to be small.
 double criterion_value(const ArxCandidate& candidate, ArxCriterion criterion);
 /// The smallest value among the structures whose parameters are determined, among all where there is none. The
 /// explanation says so, and what speaks against the choice.
 OrderChoice choose_arx(const ArxSelection& selection, ArxCriterion criterion);
-/// What the orders are chosen by unless it is said: the loss on a second record, or else BIC.
+/// The default criterion for the orders: the loss on the validation data, or without them BIC.
 ArxCriterion usual_criterion(const ArxSelection& selection);
 
 }  // namespace dynlab::inline numerics

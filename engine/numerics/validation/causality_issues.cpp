@@ -42,8 +42,8 @@ bool may_be_exchanged(const IdData& turned, double forward) {
     }
 }
 
-/// Whether the error goes with inputs from `first` samples later on, beside those before them. A smooth input, whose
-/// next samples its last ones tell, has nothing of its own to go with.
+/// Whether the error is correlated with inputs from `first` samples later on, in addition to earlier inputs. A smooth
+/// input, whose last samples predict the next ones, has no later part with which the error could be correlated.
 bool follows_later_inputs(const FittedRecord& fit, Index first = 1) {
     const IdData& window = fit.window.data;
     const Index count = std::min(window.sample_count(), kMostCausalSamples);
@@ -68,7 +68,7 @@ bool follows_later_inputs(const FittedRecord& fit, Index first = 1) {
     return chi_squared_upper_tail(std::max(0.0, statistic), static_cast<double>(kLaterInputs)) < kCausalLevel;
 }
 
-/// What a signal's past does not tell of it, of its variance.
+/// The part of a signal's variance that its past does not predict.
 double unpredictable_part(const VectorView& x) {
     const Vector centered = x.array() - x.mean();
     const Autoregression memory =

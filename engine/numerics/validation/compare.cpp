@@ -79,8 +79,8 @@ Matrix free_motions(const ComparedRecord& record, Channels channels, Index rows)
     return motions;
 }
 
-// How the system's past shows in the first samples of the record. Past them nothing of it is left beside rounding; with
-// poles that do not decay, or irregular sampling, they are the whole record.
+// The effect of the system's past on the first samples of the data. After them the effect is below rounding; with poles
+// that do not decay, or irregular sampling, they are all samples.
 struct Beginning {
     Matrix motions;  // free motions, one column each
     Vector steady;   // the response when the system rested at the first input values
@@ -139,7 +139,7 @@ struct StartCandidate {
     double bic = std::numeric_limits<double>::infinity();
 };
 
-// What all start conditions of a record have in common.
+// Values that all start conditions of one experiment share.
 struct StartSearch {
     const ComparedRecord& record;
     Channels channels;

@@ -44,8 +44,9 @@ struct Comparison {
 Comparison compare_all(const IdData& data, const std::vector<TransferFunction>& channels,
                        const CompareOptions& options = {});
 
-/// The same for a model that runs freely and finds in the record how to begin; a run that is lost has a fit of
-/// -infinity, its output is NaN from there on, and the message tells when. Throws InvalidArgument as its free_run().
+/// The same for a model with a free run, which determines its start from the data. A lost run has a fit of -infinity,
+/// its output is NaN from the time of the loss on, and the message states this time. Throws InvalidArgument as its
+/// free_run().
 Comparison compare_all(const IdData& data, const FreeRunModel& model);
 
 /// The fits (per output, over all experiments) of the same simulations without the offsets that were estimated.

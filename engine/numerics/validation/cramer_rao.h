@@ -17,7 +17,7 @@ Vector true_parameters(const TransferFunction& system, const std::vector<std::st
 /// The Cramer-Rao bound sigma^2 (sum psi psi')^-1 for white Gaussian noise of standard deviation `sigma` on the output
 /// (Ljung 1999, section 7.4), psi the exact sensitivities of the true system's output to the named parameters: the
 /// covariance that no unbiased method can beat. `u` has N samples every Ts seconds, the state is zero at the first.
-/// Infinite variances where the input does not tell the parameters apart. Throws InvalidArgument for names that
+/// Infinite variances if the input does not determine the parameters. Throws InvalidArgument for names that
 /// true_parameters() does not know, fewer samples than parameters, an improper system, and an unknown delay of a system
 /// with as many zeros as poles.
 Matrix cramer_rao_bound(const TransferFunction& system, const VectorView& u, double Ts, Hold hold, double sigma,

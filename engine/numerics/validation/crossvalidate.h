@@ -38,10 +38,10 @@ struct CrossValidation {
 using ModelFitter = std::function<std::vector<TransferFunction>(const IdData&)>;
 
 /// k-fold cross-validation (Stone 1974) of any method. Every fold is left out once: `fit` gets all other parts, as
-/// separate experiments where the fold was cut out of the middle of a record (their initial states are not zero then),
-/// and its model is simulated on the fold with the initial state estimated. Segments keep the order of samples, for
-/// neighboring samples are not independent. What `fit` throws passes through. Throws InvalidArgument for fewer than
-/// two folds, folds of fewer than ten samples, or by_experiment with a single experiment.
+/// separate experiments if the fold is cut out of the middle of an experiment (their initial states are not zero then).
+/// Its model is simulated on the fold with the initial state estimated. Segments keep the order of samples, because
+/// neighboring samples are not independent. Exceptions of `fit` pass through. Throws InvalidArgument for fewer than two
+/// folds, folds of fewer than ten samples, or by_experiment with a single experiment.
 CrossValidation cross_validate(const IdData& data, const ModelFitter& fit, const CrossValidationOptions& options = {});
 
 }  // namespace dynlab::inline numerics

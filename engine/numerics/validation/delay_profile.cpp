@@ -73,7 +73,7 @@ class DelayProfile {
             take(i, on_all_samples(i, srivc(data_, structure_at(i), options_)));
             if (i % kSearchedApart == 0) take(i, on_all_samples(i, coe(data_, structure_at(i), options_)));
         } catch (const InvalidArgument&) {
-            // no solution of its own: the neighbors' are left
+            // no separate solution: those of the neighbors remain
         }
     }
 

@@ -5,11 +5,11 @@ namespace dynlab::inline numerics {
 
 /// The smallest mean square simulation error at each delay (s, in rising order) of a structure with one input and one
 /// output, all other parameters free, under a start condition: the lower envelope of its solutions, whose values are
-/// continuous in the delay. Each delay is fitted by srivc with a start of its own, every fourth by coe as well, and
-/// then from the solutions of both neighbors, until none gets lower any more. From a neighbor no model is
-/// taken that swings with fewer than four samples a turn or, unless the options ask for it, is unstable. Of the options
-/// those of srivc with fixed delays count, but for start and offset, which the condition says. Infinite at a delay for
-/// which nothing can be fitted. `threads`: all cores when 0. Throws InvalidArgument for more channels than one.
+/// continuous in the delay. srivc fits each delay from a separate start, coe also fits every fourth delay, and then
+/// each delay is fitted from the solutions of both neighbors until none improves. A neighbor's model is not used if it
+/// oscillates with fewer than four samples a period or, unless the options allow it, is unstable. The options of srivc
+/// with fixed delays are used, except start and offset, which the condition determines. Infinite at a delay for which
+/// no model can be fitted. `threads`: all cores if 0. Throws InvalidArgument for more than one channel.
 Vector delay_profile(const IdData& data, const TransferStructure& structure, const StartCondition& condition,
                      const Vector& delays, const FitOptions& options, int threads);
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kChance = 6.635;  // 99 % quantile of chi-square with one degree of freedom
 constexpr double kFarSteps = 2, kFarErrors = 3;
-constexpr Index kProfiledSamples = 50'000;  // of a longer record, its beginning
+constexpr Index kProfiledSamples = 50'000;  // of longer data, their beginning
 
 void check_options(const DelaySearchOptions& options) {
     const FitOptions& estimation = options.estimation;

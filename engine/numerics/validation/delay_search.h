@@ -15,11 +15,11 @@ struct DelaySearchOptions {
     std::function<bool()> cancel = {};                    ///< asked before every structure, by one thread at a time
 };
 
-/// A delay, and how well the data tell it.
+/// A delay, and how well the data determine it.
 struct DelaySearch {
     double delay = 0, std = 0;    ///< s, a real number and its standard error
     OrderCandidate candidate;     ///< the structure that was taken, with its model
-    std::optional<double> rival;  ///< s, another delay on the grid whose loss chance does not tell from the smallest
+    std::optional<double> rival;  ///< s, another delay on the grid whose loss differs from the smallest only by chance
     Message explanation;          ///< plain sentences
     bool canceled = false;        ///< nothing else holds then
 

@@ -10,7 +10,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kSlowParts = 20;      // of a record, over which a slow disturbance is averaged
+constexpr Index kSlowParts = 20;      // of the data, over which a slow disturbance is averaged
 constexpr double kWorthAWord = 0.08;  // of the output's standard deviation
 constexpr double kWalkWorthAWord = 0.12;
 constexpr double kNearlyAll = 0.8;
@@ -19,8 +19,8 @@ constexpr Index kSections = 24;
 constexpr double kMinError = 0.05;  // of the output's standard deviation, for an error to be worth a word
 constexpr double kStrange = 4;      // rms error of a window over the median of all windows
 
-/// Means over the parts of a record, joined by straight lines; the first part as the two after it let expect, for a
-/// movement from before the record may be in it.
+/// Means over the parts of the data, linearly interpolated. The first part is extrapolated from the two after it,
+/// because it may contain a transient from before the first sample.
 Vector slow_part(const Vector& x) {
     const Index N = x.size(), length = N / kSlowParts;
     Vector means(kSlowParts);
@@ -35,7 +35,7 @@ Vector slow_part(const Vector& x) {
     return slow;
 }
 
-/// The error without a free motion from before the record, which could pass for a disturbance.
+/// The error without a free motion from before the first sample, which could look like a disturbance.
 Vector error_without_free_motion(const FittedRecord& fit) {
     if (fit.simulation.start.state != InitialState::kEstimate) return fit.error;
     Vector best;
@@ -82,7 +82,7 @@ std::optional<RepairedSignal> isolated_outliers(const Vector& error, double devi
     return repaired;
 }
 
-/// Outliers may hide the response that they lie on: then a model is fitted to the record without them.
+/// Outliers can hide the response on which they lie: then a model is fitted to the data without them.
 std::optional<RepairedSignal> outliers_of(FittedRecord& fit, const std::function<bool()>& cancel) {
     constexpr double kMuch = 0.3;  // of the error's power
     const double deviation = fit.deviation();
@@ -95,7 +95,7 @@ std::optional<RepairedSignal> outliers_of(FittedRecord& fit, const std::function
     if (!again || !again->trusted()) return fit.trusted() ? found : std::nullopt;
     const Vector y = fit.y();
     fit = std::move(*again);
-    fit.take_off(fit.y() - y);  // the outliers are in the record again
+    fit.take_off(fit.y() - y);  // the outliers are in the data again
     return isolated_outliers(fit.error, deviation);
 }
 
@@ -151,7 +151,7 @@ void find_disturbance(FittedRecord& fit, DataIssues& findings) {
 
 namespace {
 
-/// Of the rms errors of sections, which is far beyond that of most of the record.
+/// The rms error above which a section counts as strange: far above that of most sections.
 double strange_level(const Vector& levels, double deviation) {
     return std::max(kStrange * median(levels), kMinError * deviation);
 }
@@ -167,7 +167,7 @@ Vector levels_of_sections(const Vector& error) {
     return levels;
 }
 
-/// Sections whose error is far beyond that of most of the record.
+/// Sections whose error is far above that of most sections.
 std::vector<Segment> strange_sections(const Vector& error, double deviation) {
     const Index length = error.size() / kSections;
     if (length < 5) return {};

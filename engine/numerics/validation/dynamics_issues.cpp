@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kNoisy = 10;             // dB below which noise is a concern
 constexpr double kSlow = 6, kFast = 400;  // sampling frequency over bandwidth
-constexpr double kBeyond = 1.5;           // times the input's frequency, from where on a bandwidth is a guess
+constexpr double kBeyond = 1.5;           // times the input's frequency, above which a bandwidth is not reliable
 constexpr double kBandPass = 0.1;         // steady gain over peak
 constexpr double kOffset = 0.1;           // of the output's standard deviation
 constexpr double kOffsetAtRest = 0.02;    // of the output's standard deviation
@@ -30,8 +30,8 @@ constexpr double kAboveError = 2;         // standard deviations of the error
 constexpr double kOverOthers = 3;         // times what a fit finds of such a motion elsewhere
 constexpr double kIntegrates = 0.5;       // of the simulated movement
 
-/// rad/s up to which the output answers: where the gain is 3 dB below its steady value, or of a band-pass below its
-/// peak. Not finite where the record tells of no such edge, as with an integrator.
+/// rad/s up to which the output responds: where the gain is 3 dB below its steady value, or of a band-pass below its
+/// peak. Not finite if the data show no such edge, as with an integrator.
 double band_edge(const FittedRecord& fit) {
     const TransferFunction& G = fit.model();
     const Vector w = natural_frequency_grid(G);
@@ -74,8 +74,8 @@ Index samples_at_rest(const VectorView& u) {
     return count;
 }
 
-/// Where the output stands while the input stays at zero at the beginning: flat, and beyond what single samples leave
-/// open.
+/// The output level while the input is zero at the beginning, if the output is constant there and the level exceeds the
+/// uncertainty of single samples.
 std::optional<double> level_at_rest(const FittedRecord& fit) {
     const Index count = samples_at_rest(fit.u());
     if (count < kFewestAtRest) return std::nullopt;
@@ -98,7 +98,7 @@ double independent_errors(const Vector& error) {
     return static_cast<double>(error.size()) * (1 - r) / (1 + r);
 }
 
-/// Whether one more pole in the place of the delay does nearly as well.
+/// Whether one more pole instead of the delay is nearly as good.
 bool may_be_a_lag(const FittedRecord& fit) {
     constexpr double kNearly = 10;  // of N log of losses
     FitOptions options = FitOptions().started({InitialState::kEstimate, true});
@@ -222,8 +222,8 @@ void find_offset(const FittedRecord& fit, DataIssues& findings) {
 
 namespace {
 
-/// The free motion from before the record; nothing without one, and where it and the offset are large only to cancel
-/// each other.
+/// The free motion from before the first sample; zero without one, and if the motion and the offset are large only to
+/// cancel each other.
 Vector free_motion(const FittedRecord& fit) {
     constexpr double kNoSense = 20;  // standard deviations of the output
     const CompareResult& simulated = fit.simulation;
@@ -330,14 +330,14 @@ void find_integrator(const FittedRecord& fit, DataIssues& findings) {
 
 namespace {
 
-/// How an integrator with a lag, and a constant beside the input, explain a record.
+/// How well an integrator with a lag, and a constant in addition to the input, explain the data.
 struct LoadedIntegrator {
     double load = 0;   ///< in units of the input
     double part = 0;   ///< of its ramp, in standard deviations of the output
     double error = 1;  ///< rms, in standard deviations of the output
 };
 
-/// y = G(s) v + c + m t with v the integral of u, G stable: m = G(0) load. Straight lines are taken off y and v for G.
+/// y = G(s) v + c + m t with v the integral of u, G stable: m = G(0) load. y and v are linearly detrended for G.
 std::optional<LoadedIntegrator> loaded_integrator(const IdData& data) {
     if (data.hold != Hold::kZoh) return std::nullopt;  // the integral of its input is known for held ones only
     const IdData integrated = integrated_inputs(data);

@@ -38,7 +38,7 @@ Vector white_errors(const VectorView& error) {
     return filtered_past(memory, centered);
 }
 
-/// What the past of both signals does not tell of y(k): a prediction needs no stable model.
+/// The part of y(k) that the past of both signals does not predict: a prediction needs no stable model.
 Vector prediction_errors(const VectorView& y, const VectorView& u) {
     const Index rows = y.size() - kInputMemory;
     Matrix columns(rows, 2 * kInputMemory + 1);
@@ -69,8 +69,8 @@ Matrix input_regression(const VectorView& u, const VectorView& x) {
     return columns;
 }
 
-/// What the past of input and simulated output do not tell of the input. Jumps, of a reference say, hardly count: least
-/// squares reweighted by Tukey's biweight. Zeros where nothing but jumps is left.
+/// The part of the input that the past of input and simulated output does not predict. Jumps, for example of a
+/// reference, have little weight: least squares reweighted by Tukey's biweight. Zeros if only jumps are left.
 Vector input_innovations(const VectorView& u, const VectorView& x) {
     constexpr int kPasses = 8;
     constexpr double kTukey = 4.685;

@@ -31,10 +31,10 @@ struct ModelEvidence {
     ModelDoubts doubts = {};
 };
 
-/// What all of it says together, in a sentence or two. An unstable model is never called good, nor is one that explains
-/// little (explains_little in fit/diagnosis.h), however white its errors; of less than half of the output no dynamics
-/// are called described where the errors are colored; a cause that is known is named in the place
-/// of missing poles.
+/// The conclusion from all evidence, in one or two sentences. An unstable model is never called good, nor is a model
+/// that explains little (explains_little in fit/diagnosis.h), however white its errors. If a model explains less than
+/// half of the output and its errors are colored, the text does not call the dynamics described. A known cause is named
+/// instead of missing poles.
 Message model_verdict(const ModelEvidence& model);
 
 }  // namespace dynlab::inline numerics

@@ -7,7 +7,7 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr Index kMinCount = 60;                // samples below which a model would say little
-constexpr Index kMostSamplesToJudge = 200000;  // one by one
+constexpr Index kMostSamplesToJudge = 200000;  // that are checked individually
 constexpr double kSomething = 25;  // per cent of fit below which what the model leaves is no sign of a curve
 
 DataIssue too_short(Index samples) {

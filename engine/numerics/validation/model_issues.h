@@ -5,7 +5,7 @@
 
 namespace dynlab::inline numerics {
 
-// Each looks for one thing in a fitted record and adds what it finds.
+// Each function checks the fitted data for one problem and adds its findings.
 using DataIssues = std::vector<DataIssue>;
 
 /// Outliers of the model's error by Hampel's rule (signals/repair.h, six robust standard deviations): up to 5 % of the
@@ -13,9 +13,9 @@ using DataIssues = std::vector<DataIssue>;
 /// They are replaced in `fit.data`, so that they disturb no later test. Nothing where the model explains too little.
 void find_error_outliers(FittedRecord& fit, const std::function<bool()>& cancel, DataIssues& findings);
 
-/// "drift" (a straight line makes up most of it) and "random_walk": the error wanders (advice_record.h), and
-/// its mean over a twentieth of the record varies by more than 8 and 12 % of the output's standard deviation. The slow
-/// part is taken off `fit.data`.
+/// "drift" (a straight line makes up most of it) and "random_walk": the error wanders (advice_record.h), and its mean
+/// over a twentieth of the data varies by more than 8 and 12 % of the output's standard deviation. The slow part is
+/// subtracted from `fit.data`.
 void find_disturbance(FittedRecord& fit, DataIssues& findings);
 
 /// "noise" and "low_snr" from the error's standard deviation.
@@ -23,19 +23,19 @@ void find_noise(const FittedRecord& fit, DataIssues& findings);
 /// "dead_time", when it is longer than a sample and than four standard errors; a lag where one more pole does as well.
 void find_dead_time(const FittedRecord& fit, DataIssues& findings);
 /// "offset", chosen by BIC (compare) and more than a tenth of the output's standard deviation; or, as a note, a smaller
-/// one on which the output stands while the input stays at zero at the beginning.
+/// offset at which the output rests while the input is zero at the beginning.
 void find_offset(const FittedRecord& fit, DataIssues& findings);
-/// "running_start": a free motion, chosen by BIC (compare), that stands out from the error, is worth 5 % of the
-/// output's standard deviation and three times what a fit finds of such a motion further on; or only the first of 24
-/// sections does not follow the model (behind a dead time the unknown inputs from before the record still act).
+/// "running_start": a free motion, selected by BIC (compare), that exceeds the error, amounts to 5 % of the output's
+/// standard deviation and to three times the result of a fit of such a motion further on; or only the first of 24
+/// sections does not follow the model (behind a dead time the unknown inputs from before the first sample still act).
 void find_running_start(const FittedRecord& fit, DataIssues& findings);
 /// "slow_sampling" (below 6 times the bandwidth, if the input reaches so far) and "fast_sampling" (above 400 times).
 void find_sampling_rate(const FittedRecord& fit, DataIssues& findings);
 /// "integrator": a real pole whose time constant is longer than the search window, and which makes up most of the
 /// simulated movement.
 void find_integrator(const FittedRecord& fit, DataIssues& findings);
-/// "load": an integrator on which a constant acts beside the input, so that its output ramps, and which explains the
-/// record as well as the model or better. True when there is one: the model has another cause for the ramp.
+/// "load": an integrator with a constant in addition to the input, so that its output ramps, explains the data as well
+/// as the model or better. True if so: the model then has another cause for the ramp.
 bool find_load(const FittedRecord& fit, DataIssues& findings);
 /// "nonlinear" with sections (of 24, but for the first) whose rms error is more than four times the median of all and
 /// 5 % of the output's standard deviation. True when there are any: no other test of the error means much then.
@@ -55,11 +55,11 @@ bool gain_explains_error(const FittedRecord& fit);
 /// model that runs away, the errors are those of a prediction from the past of both signals.
 void find_feedback(const FittedRecord& fit, DataIssues& findings);
 
-/// "unstable": the model is, or its simulation leaves the record, so that nothing that it leaves is a measure.
+/// "unstable": the model is unstable, or its simulation diverges from the data, so that its error is not usable.
 bool find_runaway(const FittedRecord& fit, DataIssues& findings);
 
 /// "late_input": the whitened error goes with the input of the same and later samples, or the delay ends at zero, and
-/// the input one sample earlier explains the record better (fit/structure_advice.h).
+/// the input one sample earlier explains the data better (fit/structure_advice.h).
 bool find_late_input(const FittedRecord& fit, DataIssues& findings);
 
 /// "causality": the model from output to input leaves less than two thirds of what the one from input to output

@@ -43,7 +43,7 @@ Outcome outcome_of(const MonteCarloMethod& method, const IdData& data) {
     return outcome;
 }
 
-/// What the records of a study are made of: the noise-free one, and how the noise enters.
+/// The components of the data of a study: the noise-free data, and how the noise enters.
 class NoisyRecords {
   public:
     explicit NoisyRecords(const MonteCarloStudy& study) : r_(study.u), Ts_(study.Ts), hold_(study.hold) {
@@ -84,7 +84,8 @@ class NoisyRecords {
     ClosedLoop::Response clean_;
 };
 
-/// Joins what the threads of a study share: the noise-free record, the outcomes, progress and the wish to stop.
+/// Combines the objects that the threads of a study share: the noise-free data, the outcomes, progress and the request
+/// to stop.
 class Runner {
   public:
     /// Of `count` runs from `first` on.
@@ -121,7 +122,7 @@ class Runner {
             tbb::parallel_for(
                 tbb::blocked_range<int>(first_, end(), 1),
                 [&](const tbb::blocked_range<int>& runs) {
-                    // A nested parallel loop of a method may not bring another run into this thread's record.
+                    // A nested parallel loop of a method must not start another run that uses this thread's data.
                     for (int k = runs.begin(); k < runs.end(); ++k)
                         tbb::this_task_arena::isolate([&] { one_run(k, true, records.local()); });
                 },
@@ -239,7 +240,7 @@ void add_truth(MonteCarloResult& result, const MonteCarloStudy& study, double si
     result.truth = true_parameters(study.system, result.names);
     if (result.truth.size() == 0) return;
     result.bias = result.mean - result.truth;
-    if (study.controller) return;  // how much the noise in u tells is another matter
+    if (study.controller) return;  // the information in the noise of u is not part of the bound
     const bool free_delay = result.names.back() == "Td";
     const Index coefficients = result.truth.size() - study.system.pole_count() - (free_delay ? 1 : 0);
     if (free_delay && coefficients > study.system.pole_count()) return;  // no bound: the output jumps with the input

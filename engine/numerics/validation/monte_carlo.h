@@ -42,10 +42,10 @@ struct MonteCarloRun {
 /// Makes the runs `first`, `first` + 1, ..., `count` of them.
 using SomeRuns = std::function<std::vector<MonteCarloRun>(std::size_t first, std::size_t count)>;
 
-/// The same experiment again and again: the noise-free output x of `system` for the input u, plus white noise. Run
-/// k = 0, 1, ... has y = x + sigma randn with the random stream of seed + k (signals/random.h), whatever the threads.
-/// With a controller u is the reference of a loop, whose records hold input, output and reference; the noise goes
-/// around in the loop.
+/// A repeated experiment: the noise-free output x of `system` for the input u, plus white noise. Run k = 0, 1, ... has
+/// y = x + sigma randn with the random stream of seed + k (signals/random.h), for any number of threads. With a
+/// controller, u is the reference of a loop, whose data contain input, output and reference; the noise passes through
+/// the loop.
 struct MonteCarloStudy {
     TransferFunction system;      ///< continuous time; the truth
     Vector u;                     ///< N samples; of the reference with a controller
@@ -93,9 +93,10 @@ struct MonteCarlo {
     bool canceled = false;  ///< runs that had not begun count neither as estimated nor as failed
 };
 
-/// Runs every method on every record, on several cores. Truth and bound are told for methods whose parameters are the
-/// system's (validation/cramer_rao.h). Memory: one record per thread, runs x d per method. Throws InvalidArgument for
-/// an unsuitable study, for methods with equal labels, and when every run of a method failed.
+/// Runs every method on the data of every run, on several cores. The result contains true values and the bound for
+/// methods whose parameters are the system's (validation/cramer_rao.h). Memory: one data set per thread, runs x d per
+/// method. Throws InvalidArgument for an unsuitable study, for methods with equal labels, and if every run of a method
+/// failed.
 MonteCarlo monte_carlo(const MonteCarloStudy& study, const std::vector<MonteCarloMethod>& methods);
 
 }  // namespace dynlab::inline numerics

@@ -128,7 +128,7 @@ NonlinearRegression nonlinear_regression(const FittedRecord& fit) {
     return regression;
 }
 
-/// Eliminates columns from sums of products one after the other, those that hardly differ from earlier ones left out.
+/// Eliminates columns from sums of products in sequence; columns that are nearly equal to earlier ones are left out.
 class Elimination {
   public:
     explicit Elimination(Matrix gram) : gram_(std::move(gram)), power_(gram_.diagonal()) {}

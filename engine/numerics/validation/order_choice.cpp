@@ -44,7 +44,8 @@ std::size_t best_of(const OrderSelection& selection, const Places& places, Order
     });
 }
 
-/// The candidate with fewest parameters among those hardly behind the best one; of equally many the better one.
+/// The candidate with fewest parameters among those slightly behind the best one; of candidates with equal numbers the
+/// better one.
 std::size_t simplest_of(const OrderSelection& selection, const Places& places) {
     constexpr OrderCriterion kOwn = OrderCriterion::kRecommended;
     const double slight = selection.validated ? kSlightFit : kSlightEvidence;

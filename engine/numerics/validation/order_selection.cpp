@@ -35,8 +35,8 @@ Comparison comparison_of(const IdData& data, const Fit& estimate, Offset asked) 
                        {estimate.start.state, asked == Offset::kRemove ? Offset::kRemove : chosen});
 }
 
-/// Closer than a tenth of their distance from the origin and not told apart by three standard deviations, or closer
-/// than a hundredth.
+/// Closer than a tenth of their distance from the origin and not distinct by three standard deviations, or closer than
+/// a hundredth.
 bool cancel(const RootUncertainty& pole, const RootUncertainty& zero) {
     const double gap = std::abs(pole.root - zero.root), size = std::max(std::abs(pole.root), std::abs(zero.root));
     if (gap <= 0.01 * size) return true;
@@ -44,7 +44,7 @@ bool cancel(const RootUncertainty& pole, const RootUncertainty& zero) {
     return gap <= 0.1 * size && !(gap > 3 * spread);
 }
 
-/// Closer to the integrator's pole, 0, than a tenth of the slowest pole's distance and not told from 0 by three
+/// Closer to the integrator's pole, 0, than a tenth of the slowest pole's distance and not distinct from 0 by three
 /// standard deviations, or closer than a hundredth.
 bool cancels_integrator(const RootUncertainty& zero, double slowest) {
     const double gap = std::abs(zero.root);
@@ -175,8 +175,8 @@ void check_selection(const IdData& data, const std::vector<TransferStructure>& c
     }
 }
 
-/// Places of the structures in the order in which they are estimated: those of one list may be estimated together, for
-/// all that are poorer stand in lists before it.
+/// Places of the structures in the order of estimation: the structures of one list can be estimated together, because
+/// all structures with fewer parameters are in lists before it.
 std::vector<std::vector<std::size_t>> levels_of(const std::vector<TransferStructure>& structures) {
     std::map<int, std::vector<std::size_t>> levels;
     for (std::size_t i = 0; i < structures.size(); ++i)

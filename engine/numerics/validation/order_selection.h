@@ -23,15 +23,16 @@ struct OrderCandidate {
     double log_condition = 0;  ///< log10 of the column-scaled equations' condition number
     int iterations = 0;
     double fit_percent = 0;
-    std::optional<double> validation_fit;  ///< percent, of the second record; minus infinity when it overflows
+    std::optional<double> validation_fit;  ///< percent, of the validation data; minus infinity if the simulation
+                                           ///< overflows
     double evidence = 0;  ///< N ln V + d ln N, V the mean square error, but not below rounding of the output
     std::vector<std::string> undetermined;  ///< parameters whose standard error exceeds their value
-    bool cancellation = false;              ///< a zero lies on a pole within what the data can tell
+    bool cancellation = false;              ///< a zero equals a pole to within its uncertainty
     bool converged = true;
-    bool integrator = false;  ///< besides the poles, which do not count it
+    bool integrator = false;  ///< in addition to the poles, which do not include it
     bool unstable = false;    ///< the integrator aside
 
-    /// An estimate without the three faults that tell of too high an order.
+    /// An estimate without the three problems that indicate too high an order.
     bool sound() const { return failure.empty() && undetermined.empty() && !cancellation && converged; }
     int parameters() const { return static_cast<int>(estimate.theta.size()); }
 };
@@ -44,7 +45,7 @@ struct OrderSelection {
 };
 
 struct OrderSelectionOptions {
-    const IdData* validation = nullptr;                   ///< another record of the same channels
+    const IdData* validation = nullptr;                   ///< other data of the same channels
     int threads = 0;                                      ///< all cores when 0; never more than there are
     FitOptions estimation = {};                           ///< the same for every structure, an integrator among it
     std::function<void(std::size_t done)> progress = {};  ///< called by one thread at a time
@@ -58,14 +59,14 @@ std::vector<TransferStructure> order_grid(std::pair<int, int> poles, std::pair<i
                                           const std::vector<double>& delays, bool free_delay = false,
                                           bool feedthrough = false);
 
-/// Estimates every structure on `data` (one input, one output, any number of experiments) by srivc, several at once,
-/// from few poles and zeros up: a structure's search knows the fits of those that are a step poorer.
-/// A second record is simulated as compare_all() does it with the initial state estimated, for that is the record's
-/// own, and with the offset that the estimation was asked for, or chose. Equal numbers for any number of threads.
-/// Throws InvalidArgument for other data, no candidates, and when none of them could be estimated. Where the options
-/// leave the start open each fit chooses its own (fit/start_choice.h), and AIC, BIC and FPE count its initial values
-/// and its offset. With estimation.integration inputs are held (zoh), the record begins at rest, and a second record's
-/// initial state is that of the integrator too, so that an offset of its output is part of it.
+/// Estimates every structure on `data` (one input, one output, any number of experiments) by srivc, several in
+/// parallel, in order of increasing poles and zeros: a structure's search uses the fits of the next smaller ones.
+/// Validation data are simulated as in compare_all() with the initial state estimated, because it is that of these
+/// data, and with the offset that the estimation used or selected. The results do not depend on the number of threads.
+/// Throws InvalidArgument for other data, no candidates, and if none of them could be estimated. If the options do not
+/// specify the start, each fit selects its start (fit/start_choice.h), and AIC, BIC and FPE count its initial values
+/// and its offset. With estimation.integration inputs are held (zoh) and the data begin at rest. The initial state of
+/// validation data then includes the integrator's, and thereby an offset of its output.
 OrderSelection select_order(const IdData& data, const std::vector<TransferStructure>& candidates,
                             const OrderSelectionOptions& options = {});
 
@@ -86,11 +87,11 @@ struct OrderChoice {
     std::size_t place = 0;  ///< among the candidates
     Message explanation;    ///< plain sentences
 };
-/// kRecommended: among the sound candidates, the stable ones if there are any, with a second record the one with fewest
-/// parameters whose validation fit is within half a point of the best; otherwise the smallest BIC, or a candidate with
-/// fewer parameters that is behind by no more than 2 (Kass and Raftery 1995: not worth a mention). Without sound
-/// candidates all count. Other criteria: the best value among all estimates. Throws InvalidArgument for kValidationFit
-/// without a second record.
+/// kRecommended: among the sound candidates, the stable ones if there are any. With validation data it is the one with
+/// fewest parameters whose validation fit is within half a point of the best. Without them it is the smallest BIC, or a
+/// candidate with fewer parameters whose BIC is at most 2 larger (Kass and Raftery 1995: not worth a mention). Without
+/// sound candidates all count. Other criteria: the best value among all estimates. Throws InvalidArgument for
+/// kValidationFit without validation data.
 OrderChoice choose_order(const OrderSelection& selection, OrderCriterion criterion = OrderCriterion::kRecommended);
 
 }  // namespace dynlab::inline numerics

@@ -41,7 +41,7 @@ struct PredictionOptions {
 
 /// One output of one experiment.
 struct PredictedOutput {
-    Vector output;           ///< N; what stands before `first` is the recorded output
+    Vector output;           ///< N; the recorded output before `first`
     Vector errors;           ///< N, e: measured minus predicted one step ahead; zero before `first`
     Index first = 0;         ///< the first sample (0-based) that is predicted
     double fit_percent = 0;  ///< of `output` from there on

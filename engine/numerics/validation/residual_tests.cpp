@@ -43,7 +43,7 @@ struct ProductCovariances {
     Vector Re, g;
 };
 
-// Bartlett weights reach over a quarter of the record: g is positive by construction, and as exact as the
+// Bartlett weights extend over a quarter of the data: g is positive by construction, and as exact as the
 // autocorrelations allow.
 ProductCovariances product_covariances(const Signals& e, const Signals& u, Index lags) {
     const Index reach = longest(e) / 4;
@@ -69,7 +69,8 @@ struct QuadraticForm {
     double p_value = 1;
 };
 
-// N r' P^-1 r in the directions that the input excites by more than a sample's worth, r from N samples in `records`.
+// N r' P^-1 r in the directions that the input excites by more than one sample's power, r from N samples in one or
+// several experiments.
 QuadraticForm quadratic_form(const Vector& r, const Matrix& P, double N, double records) {
     const auto [values, vectors] = symmetric_eigen(P);
     const Vector along = vectors.transpose() * r;
@@ -116,7 +117,7 @@ struct TestedInput {
     Vector own, with_error;
 };
 
-// Of all inputs, and R, the covariances of e at lags 0 and on: two dozen passes over the record each, side by side.
+// Of all inputs, and R, the covariances of e at lags 0 and on: about two dozen passes over the data each, in parallel.
 std::vector<TestedInput> tested_inputs(const Signals& e, const IdData& data, Index lags, Vector& R) {
     std::vector<TestedInput> inputs(static_cast<std::size_t>(data.input_count()));
     for (std::size_t j = 0; j < inputs.size(); ++j)
@@ -170,7 +171,7 @@ IndependenceTest test_independence(const Signals& e, double variance, const Test
     return test;
 }
 
-// What the tests say of one output's model; the rest is known to whoever knows the model.
+// The results of the tests for one output's model; the caller adds what it knows about the model.
 ModelEvidence standing_of(const OutputResiduals& output, ErrorKind kind) {
     ModelEvidence model;
     model.fit_percent = output.fit_percent;
@@ -255,7 +256,7 @@ ResidualTests tests_of(const IdData& data, std::vector<Matrix> errors, ErrorKind
     return tests;
 }
 
-// Adds what all of it says together to each output's verdict.
+// Adds the conclusion from all results to each output's text.
 template <class Standing>
 void conclude(ResidualTests& tests, const Standing& standing) {
     MessageList lines{{}, Join::kLines};

@@ -17,7 +17,7 @@ struct IndependenceTest {
     Vector correlation;         ///< lags -L..L, normalized; at positive ones the input acts before the error
     double bound = 0;           ///< lag by lag, for an error that the input does not touch
     double statistic = 0;       ///< of lags 0..L, chi-squared with `degrees` if independent, N large
-    Index degrees = 0;          ///< fewer than L + 1 when the input is not rich enough to tell the lags apart
+    Index degrees = 0;          ///< fewer than L + 1 if the input is not rich enough to distinguish the lags
     Index outside = 0;          ///< lags 0..L beyond the bound
     double p_value = 1;         ///< lags 0..L: dynamics the model lacks
     double p_value_future = 1;  ///< lags -L..-1: feedback from the output to the input
@@ -41,20 +41,19 @@ struct ResidualTests {
     Message verdict;  ///< one paragraph per output
 };
 
-/// Tests on the output error e = y - simulated, all experiments together. Means are taken
-/// off e and u first, experiment by experiment. Whiteness: Ljung and Box (1978). Independence: the cross-correlations
-/// r of lags 0..L have under independence the covariance P/N, P_ij = sum_k R_e(k) R_u(k + i - j) (Ljung 1999, section
-/// 16.6) less what the ends of the record take away (see lagged_sum_covariance), whose diagonal far from the ends gives
-/// the bound; the statistic is N r' P^-1 r, N times the part R^2 of e that the input explains, and the p-value that of
-/// R^2: exact for white normal errors, however short the record. When e is not
-/// rejected as white the sum has one term; otherwise it is weighted (Bartlett) up to a quarter of the record.
-/// The degrees of freedom are not reduced by the estimated parameters, so that the tests reject a little less than they
-/// might. `simulated` holds N x ny outputs per experiment. Throws InvalidArgument for sizes that do not fit or fewer
-/// than two samples per lag.
+/// Tests on the output error e = y - simulated, all experiments together. Means are first subtracted from e and u in
+/// each experiment. Whiteness: Ljung and Box (1978). Independence: under independence the cross-correlations r of lags
+/// 0..L have the covariance P/N, P_ij = sum_k R_e(k) R_u(k + i - j) (Ljung 1999, section 16.6), reduced by the effect
+/// of the ends of the data (see lagged_sum_covariance). The diagonal of P far from the ends gives the bound. The
+/// statistic is N r' P^-1 r, N times the part R^2 of e that the input explains, and the p-value is that of R^2: exact
+/// for white normal errors and data of any length. If e is not rejected as white, the sum has one term; otherwise it is
+/// weighted (Bartlett) up to a quarter of the data. The degrees of freedom are not reduced by the estimated parameters,
+/// so that the tests are slightly conservative. `simulated` contains N x ny outputs per experiment. Throws
+/// InvalidArgument for sizes that do not match or fewer than two samples per lag.
 ResidualTests residual_tests(const IdData& data, std::vector<Matrix> simulated, const ResidualOptions& options = {});
 
-/// The same for a model, whose initial state and offset are handled as by compare_all(). The verdict weighs its
-/// stability, its direct terms and delays, other starts, and what its estimation doubts.
+/// The same for a model, whose initial state and offset are handled as by compare_all(). The conclusion takes into
+/// account the model's stability, its direct terms and delays, other starts, and the warnings of its estimation.
 ResidualTests residual_tests(const IdData& data, const std::vector<TransferFunction>& channels,
                              const CompareOptions& simulation = {}, const ResidualOptions& options = {},
                              const ModelDoubts& doubts = {});

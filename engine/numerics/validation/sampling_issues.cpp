@@ -20,7 +20,7 @@ struct Clock {
     bool is_usual(Index place) const { return std::abs(steps[place] / usual - 1) < 0.05; }
 };
 
-/// First place from which on the steps are others for at least `length` samples with hardly an exception; -1 if none.
+/// First place from which on the steps differ for at least `length` samples with few exceptions; -1 if none.
 Index first_other_clock(const Clock& clock, Index length) {
     Index others = 0;
     for (Index k = 0; k < clock.steps.size(); ++k) {

@@ -67,7 +67,7 @@ double range_of(const Vector& x) {
     return x.maxCoeff() - x.minCoeff();
 }
 
-/// A constant input other than zero may be a step with which the record begins.
+/// A constant input other than zero may be a step at the first sample.
 void find_step_at_the_start(const Channel& channel, std::vector<DataIssue>& findings) {
     findings.push_back(about(channel, "step_input", Weight::kNote,
                              Message("{} stays at {} throughout. If the input was switched on with the first sample "
@@ -85,7 +85,7 @@ void find_constant(const Channel& channel, std::vector<DataIssue>& findings) {
                              channel.x[0]));
 }
 
-/// One of several inputs: nothing tells what it does.
+/// One of several inputs: the data do not show its effect.
 void find_resting_input(const Channel& channel, std::vector<DataIssue>& findings) {
     findings.push_back(about(channel, "constant", Weight::kWarning,
                              Message("{} stays at {} throughout, so its effect cannot be distinguished from an offset. "
@@ -107,7 +107,7 @@ void find_time_column(const Channel& channel, std::vector<DataIssue>& findings) 
               mean));
 }
 
-/// How far a signal moves in `reach` samples before `place`; 0 where the record does not go back so far.
+/// The change of a signal in the `reach` samples before `place`; 0 if the data do not go back so far.
 double rise_before(const Vector& x, Index place, Index reach) {
     return place < reach ? 0 : std::abs(x[place] - x[place - reach]);
 }
@@ -179,7 +179,7 @@ double bend_at(const Vector& x, Index k) {
     return k < 1 || k + 1 >= x.size() ? 0 : std::abs(x[k + 1] - 2 * x[k] + x[k - 1]);
 }
 
-/// Drops those that bend the signal no more than samples that nobody suspects: fast passages, of which there are many.
+/// Drops outliers that bend the signal no more than ordinary samples do: fast passages, of which there are many.
 void drop_usual_bends(RepairedSignal& repaired, const Vector& x) {
     constexpr double kUnusual = 1.2;
     double usual = 0;

@@ -23,7 +23,7 @@ struct Periods {
     Eigen::MatrixXcd U, Y;
 };
 
-/// One realization's means over the periods, and what its periods tell of noise: variances of one period.
+/// One realization's means over the periods, and the noise estimated from its periods: variances of one period.
 struct Realization {
     ComplexVector U, Y;
     Vector input_noise, output_noise;
@@ -36,7 +36,7 @@ struct Cut {
     Index first, periods;
 };
 
-/// Where the whole periods of every realization stand; `rest` becomes the samples left out of each.
+/// Positions of the complete periods of every realization; `rest` is set to the number of samples left out of each.
 std::vector<Cut> cuts_of(const IdData& data, const BlaOptions& options, Index& rest) {
     std::vector<Cut> cuts;
     for (std::size_t e = 0; e < data.experiments.size(); ++e) {
@@ -96,7 +96,7 @@ Realization realization_of(const Periods& periods) {
 }
 
 struct Lines {
-    std::vector<Index> excited, odd, even;  // 0-based: line k stands at k - 1
+    std::vector<Index> excited, odd, even;  // 0-based: line k has index k - 1
     bool some_differ = false;
 };
 
@@ -119,8 +119,8 @@ Lines lines_of(const std::vector<Realization>& all, double least_input) {
     return lines;
 }
 
-/// The largest correlation of two inputs over all shifts in time: a shifted input answers with a shifted output, and
-/// tells no more than the other one.
+/// The largest correlation of two inputs over all shifts in time: a shifted input causes a shifted output, and adds no
+/// information.
 double shifted_correlation(const ComplexVector& a, const ComplexVector& b, Index period) {
     const ComplexVector cross = a.conjugate().cwiseProduct(b);
     Vector real = Vector::Zero(period), imaginary = Vector::Zero(period);

@@ -108,15 +108,15 @@ bool realizations_tell(const FrequencyData& data) {
     return data.realized.cols() > 1 && data.variance.size() > 0;
 }
 
-/// The covariance of theta, where `plain` takes errors as independent from frequency to frequency. Those of nonlinear
-/// distortion are uncorrelated and yet not independent: a gain that all frequencies share changes with the realization
-/// (Schoukens and Pintelon 2010, IEEE Trans. Instrum. Meas. 59, 3159-3167). What each realization would change of theta
-/// tells their covariance; as far as distortion makes the variance it is believed, `plain` counting as one more
+/// The covariance of theta; `plain` is that of errors that are independent between frequencies. Errors of nonlinear
+/// distortion are uncorrelated but not independent: a gain common to all frequencies changes with the realization
+/// (Schoukens and Pintelon 2010, IEEE Trans. Instrum. Meas. 59, 3159-3167). The changes of theta by each realization
+/// estimate their covariance. This estimate has the weight of distortion in the variance; `plain` counts as one more
 /// realization.
 Matrix covariance_with_distortion(const FrequencyData& data, const Matrix& plain, const Matrix& changes) {
     constexpr double kPlainRealizations = 1, kMostlyDistortion = 0.5;
     const auto M = static_cast<double>(changes.cols());
-    double distortion = 1;  // its share of the variance, at the frequencies that tell most
+    double distortion = 1;  // its share of the variance, at the most informative frequencies
     if (data.noise_variance.size() > 0) {
         const Vector counts = data.response.cwiseAbs2().cwiseQuotient(data.variance);
         const double noise = counts.dot(data.noise_variance.cwiseQuotient(data.variance)) / counts.sum();

@@ -12,7 +12,7 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr Index kFewestSamplesOfSpa = 8, kDefaultWindow = 30, kDefaultFrequencies = 128;
-constexpr double kPoorInput = 1e-4;    // part of the largest input power below which hardly anything is excited
+constexpr double kPoorInput = 1e-4;    // part of the largest input power below which the input counts as not exciting
 constexpr double kLeastInput = 1e-10;  // what the response is divided by at least
 
 Index window_of(const SpaOptions& options, Index shortest) {

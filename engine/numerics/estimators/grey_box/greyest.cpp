@@ -149,7 +149,7 @@ Beginning best_start(const Problem& problem, const Vector& weights) {
     for (const Vector& start : starts) {
         const GreyOutput criterion = problem.criterion(start, weights);
         const bool first = &start == &starts.front();
-        if (first) criterion.trajectories(criterion.start(), false);  // tells why the model's own start is none
+        if (first) criterion.trajectories(criterion.start(), false);  // throws if the model's start fails
         if (starts.size() == 1) return {start, criterion.start(), {}};
         const Fit trial = minimize(criterion, criterion.start(), rough);
         if (first || trial.loss < smallest) {
@@ -240,7 +240,7 @@ std::vector<std::string> search_names(const GreyModel& model, const GreyOutput& 
     return names;
 }
 
-/// What the sensitivities at the end tell apart.
+/// Checks which parameters the sensitivities at the end determine.
 void look_at_sensitivities(GreyFit& result, const GreyOutput& criterion, const Fit& end) {
     if (criterion.parameter_count() == 0) return;
     Vector output;
@@ -295,7 +295,7 @@ void warn_of_bounds(Fit& fit, const GreyModel& model, const std::vector<Index>& 
     }
 }
 
-/// From the order of the search to that of the model, where fixed parameters stand, too.
+/// Converts the parameters from the search's order to the model's, which includes fixed parameters.
 void set_parameters(GreyFit& result, const GreyOutput& criterion, const Fit& end) {
     Fit& fit = result.fit;
     const std::vector<Index> free = result.model.free_parameters();

@@ -14,7 +14,7 @@ namespace dynlab::inline numerics {
 enum class GreyStart {
     kModel,     ///< "model": as its x0 says
     kZero,      ///< "zero": all states zero
-    kEstimate,  ///< "estimate": all states are estimated, for each experiment by itself
+    kEstimate,  ///< "estimate": all states are estimated, separately for each experiment
 };
 /// Throws InvalidArgument that lists the words.
 GreyStart parse_grey_start(const std::string& text);
@@ -33,8 +33,8 @@ struct GreyOptions {
     void validate() const;
 };
 
-/// An estimated grey-box model. The fit's theta, names, std and covariance are of all parameters, fixed ones with
-/// variance zero, those that the record cannot tell with an infinite one.
+/// An estimated grey-box model. The fit's theta, names, std and covariance cover all parameters. The variance is zero
+/// for fixed parameters, and infinite for those that the data do not determine.
 struct GreyFit {
     GreyModel model;  ///< with the estimates as its parameters' starts
     Fit fit;
@@ -59,7 +59,7 @@ struct GreyFit {
 /// Process Identification.
 GreyFit greyest(const IdData& data, const GreyModel& model, const GreyOptions& options = {});
 
-/// A model as it stands, with its starts in the place of estimates, to be simulated.
+/// A model without estimation, for simulation; its starts replace the estimates.
 GreyFit unfitted_grey_box(const GreyModel& model);
 
 /// Outputs of an estimate for other inputs (N x ny), from x(t_1) = `x0` or, where that is empty, from the initial state

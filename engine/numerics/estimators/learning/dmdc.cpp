@@ -11,7 +11,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr double kRounding = 1e-10;  // of the largest singular value, below which nothing is told apart
+constexpr double kRounding = 1e-10;  // of the largest singular value, below which a singular value counts as rounding
 
 Vector root_mean_squares(const IdData& data, Matrix Experiment::*channels) {
     Vector squares = Vector::Zero((data.experiments.front().*channels).cols());

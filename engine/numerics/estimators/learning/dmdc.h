@@ -6,7 +6,7 @@
 namespace dynlab::inline numerics {
 
 struct DmdcOptions {
-    int rank = 0;    ///< r, states of the model; 0: as many as the singular values tell from rounding
+    int rank = 0;    ///< r, states of the model; 0: the number of singular values above rounding
     int delays = 1;  ///< d, samples of outputs and inputs that make up a snapshot; 1: the outputs alone
     std::function<bool()> cancel = {};  ///< asked before every decomposition; then it throws
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr Index kMaxTerms = 50, kRowsAtOnce = 2048;
 constexpr double kDependent = 1e-12;  // of a candidate's power, what the others leave of it
-constexpr double kOutOfBounds = 1e3;  // times the largest output of the record
+constexpr double kOutOfBounds = 1e3;  // times the largest output of the data
 
 /// R of the candidates' values and the outputs, of which all that follows is made.
 Matrix candidates_and_output(const IdData& data, const NarxLags& lags, const Monomials& monomials,
@@ -51,8 +51,8 @@ struct Choice {
     std::vector<double> error_reduction, bic;
 };
 
-/// The candidates one by one, each time the one that explains most of what is left of the output. What is chosen is
-/// taken off all others (modified Gram and Schmidt).
+/// Selects the candidates in turn: each time the one that explains most of the rest of the output. Each selected
+/// candidate is removed from all others (modified Gram-Schmidt).
 Choice choose_forwards(const Matrix& R, Index rows, Index most, const std::function<bool()>& cancel) {
     const Index M = R.cols() - 1;
     Matrix W = R.leftCols(M);
@@ -92,7 +92,7 @@ std::size_t number_of_terms(const Choice& choice, Index requested) {
     return static_cast<std::size_t>(requested);
 }
 
-/// theta of the chosen terms, with all that a linear regression tells.
+/// theta of the selected terms, with all results of a linear regression.
 void solve_chosen(NarxFit& found, const Matrix& R, const std::vector<Index>& terms, Index rows) {
     const auto d = static_cast<Index>(terms.size());
     Matrix chosen(R.rows(), d);

@@ -31,8 +31,8 @@ class NarxModel : public FreeRunModel {
 
     Index input_count() const override { return static_cast<Index>(lags_.nb.size()); }
     Index output_count() const override { return 1; }
-    /// `x0`: the first outputs of the run, as many as samples pass before the past is recorded, which the record gives
-    /// otherwise. A run is lost where its output is 1e3 times as large as any that the model was made from.
+    /// `x0`: the first outputs of the run, as many as the longest lag needs; by default the data provide them. A run is
+    /// lost if its output exceeds 1e3 times the largest output of the estimation data.
     FreeRun free_run(const IdData& data, std::size_t experiment, const VectorView& x0) const override;
 
     const NarxLags& lags() const { return lags_; }
@@ -51,7 +51,8 @@ class NarxModel : public FreeRunModel {
 struct NarxOptions {
     int degree = 2;
     Index terms = 0;                    ///< how many; 0: as many as the smallest BIC has, at most 50
-    std::function<bool()> cancel = {};  ///< asked before every block of the record and every term; then it throws
+    std::function<bool()> cancel = {};  ///< called before every block of data and every term; narx throws when it
+                                        ///< returns true
 
     /// Throws InvalidArgument naming the option.
     void validate() const;
@@ -72,17 +73,16 @@ struct NarxFit {
     std::string equation;         ///< "y1(k) = 0.5*y1(k-1) + ..."
 };
 
-/// Polynomial NARX model y(k) = sum_i theta_i p_i(y(k-1).., u(k-nk)..) + e(k) by forward orthogonal selection: of all
-/// monomials of the past values up to a degree, the one is taken that explains most of the output's power beyond the
-/// terms before it (error reduction ratio), until BIC rises or the wanted number is reached; theta is the least-squares
-/// solution. One orthogonal triangularisation of all candidates comes first, so that the choice costs nothing that
-/// grows with the record. Consistent for white e in the equation; noise of the measurement biases it, as it does arx.
-/// `fit_percent` is that of the free run from the first recorded outputs (-infinity where it diverges, which is warned
-/// of), `prediction_fit_percent` one step ahead.
-/// Data: one output, any number of inputs and experiments, regular sampling. Throws InvalidArgument for other data,
-/// lags or options, and no more equations than candidates.
-/// Reference: Chen, Billings and Luo (1989), Int. J. Control 50, 1873-1896; Billings (2013), Nonlinear System
-/// Identification, chapter 3.
+/// Polynomial NARX model y(k) = sum_i theta_i p_i(y(k-1).., u(k-nk)..) + e(k) by forward orthogonal selection. Of all
+/// monomials of the past values up to a degree, each step selects the one that explains most of the output's remaining
+/// power (error reduction ratio), until BIC rises or the requested number is reached. theta is the least-squares
+/// solution. One orthogonal triangularization of all candidates comes first, so that the cost of the selection does not
+/// depend on the length of the data. The estimate is consistent for white e in the equation; measurement noise biases
+/// it, as for arx. `fit_percent` is that of the free run from the first recorded outputs (-infinity, with a warning, if
+/// the run diverges), `prediction_fit_percent` that of the one-step prediction. Data: one output, any number of inputs
+/// and experiments, regular sampling. Throws InvalidArgument for other data, lags or options, and no more equations
+/// than candidates. References: Chen, Billings and Luo (1989), Int. J. Control 50, 1873-1896; Billings (2013),
+/// Nonlinear System Identification, chapter 3.
 NarxFit narx(const IdData& data, const NarxLags& lags, const NarxOptions& options = {});
 
 }  // namespace dynlab::inline numerics

@@ -19,9 +19,9 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr Index kMaxIntegratedStates = 8;  // of the integrator
-constexpr double kStateOutOfBounds = 1e3;  // times the largest value of a state in the record
+constexpr double kStateOutOfBounds = 1e3;  // times the largest value of a state in the data
 
-/// R of [Theta B] over all experiments: the equations, as far as least squares ask.
+/// R of [Theta B] over all experiments: the part of the equations that least squares needs.
 struct Rotated {
     Matrix R;
     Index rows = 0;
@@ -142,7 +142,7 @@ Vector largest_states(const IdData& data) {
     return largest;
 }
 
-/// Coefficients, theta and names, equations, and what is told of them.
+/// Sets coefficients, theta and names, equations, and the messages about them.
 void describe(SindyFit& found, const IdData& data, const SindyOptions& options) {
     Fit& fit = found.fit;
     const Matrix& Xi = found.model->coefficients();

@@ -19,9 +19,9 @@ class SindyModel : public FreeRunModel {
 
     Index input_count() const override { return inputs_; }
     Index output_count() const override { return coefficients_.cols(); }
-    /// `x0`: the states at the first sample, which the record's first outputs give otherwise. Integrated adaptively
-    /// from sample to sample, with the data's hold. A run is lost where a state is 1e3 times as large as any in the
-    /// record that the model was made from.
+    /// `x0`: the states at the first sample; by default the first outputs of the data. The integration is adaptive from
+    /// sample to sample, with the data's hold. A run is lost if a state exceeds 1e3 times its largest value in the
+    /// estimation data.
     FreeRun free_run(const IdData& data, std::size_t experiment, const VectorView& x0) const override;
 
     const FunctionLibrary& library() const { return library_; }
@@ -38,7 +38,7 @@ class SindyModel : public FreeRunModel {
 struct SindyOptions {
     /// A term goes when the root mean square of what it alone explains is less than this share of that of the rate.
     double threshold = 0.02;
-    bool weak = false;            ///< integrals against test functions in place of derivatives
+    bool weak = false;            ///< integrals against test functions instead of derivatives
     int window = 5;               ///< samples (odd) over which a polynomial gives state and derivative
     std::optional<double> width;  ///< time unit; half the length of a test function; default: computed from the data
     std::function<bool()> cancel = {};  ///< asked before every experiment and state; then it throws
@@ -55,24 +55,22 @@ struct SindyFit {
     std::optional<double> width;         ///< that of the test functions, time unit
 };
 
-/// Sparse identification of nonlinear dynamics: dx/dt = Xi' theta(x, u) with few terms of a library of functions, the
-/// outputs of the data being the states. Least squares over all functions; then, state by state, the function goes that
-/// explains least beyond the others, and the rest is solved again, as long as that is below the threshold (sequential
-/// thresholding, where what is compared has neither the unit of a coefficient nor trouble with functions that are much
-/// alike). Equations:
+/// Sparse identification of nonlinear dynamics: dx/dt = Xi' theta(x, u) with few terms of a library of functions; the
+/// outputs of the data are the states. The first solution is least squares over all functions. Then, state by state,
+/// sindy removes the function with the smallest contribution and solves again, while this contribution is below the
+/// threshold (sequential thresholding). The contribution has no unit, and similar functions cause no problem.
+/// Equations:
 /// * derivatives (default): state and derivative from a polynomial of degree 4 (at most) over the `window` around each
 ///   sample; where a held input jumps within the window the sample is left out;
 /// * weak: for bump functions phi of compact support, -int phi' x dt = int phi theta(x, u) dt by the trapezoidal rule,
 ///   whose error is small because phi vanishes smoothly at its ends. No derivative of the data is taken, so noise is
 ///   averaged; held inputs are integrated piece by piece.
-/// The threshold has no unit, so what is found does not depend on those of the data. `fit_percent` is that of the free
-/// run from the first sample (-infinity where it diverges, which is warned of). No standard errors: errors of the
-/// equations depend on each other.
-/// Data: any number of outputs up to 8 (states), inputs (none too) and experiments, irregular sampling too. Throws
-/// InvalidArgument for other data or options, too few samples, and a library of another size or with values that are
-/// not finite.
-/// Reference: Brunton, Proctor and Kutz (2016), PNAS 113, 3932-3937; Messenger and Bortz (2021), Multiscale Modeling
-/// and Simulation 19, 1474-1497.
+/// The threshold has no unit, so that the result does not depend on the units of the data. `fit_percent` is that of the
+/// free run from the first sample (-infinity, with a warning, if the run diverges). There are no standard errors,
+/// because the errors of the equations are correlated. Data: up to 8 outputs (states), any number of inputs (also none)
+/// and experiments, regular or irregular sampling. Throws InvalidArgument for other data or options, too few samples,
+/// and a library of another size or with values that are not finite. References: Brunton, Proctor and Kutz (2016), PNAS
+/// 113, 3932-3937; Messenger and Bortz (2021), Multiscale Modeling and Simulation 19, 1474-1497.
 SindyFit sindy(const IdData& data, const FunctionLibrary& library, const SindyOptions& options = {});
 
 }  // namespace dynlab::inline numerics

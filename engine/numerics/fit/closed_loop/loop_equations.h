@@ -5,8 +5,8 @@
 
 namespace dynlab::inline numerics {
 
-/// The equations sum_k z(k) (p^n y_f - phi' theta) = 0 of a record in closed loop: y, u and the instruments' x and u
-/// filtered by 1/E, x and y on straight lines between their samples.
+/// The equations sum_k z(k) (p^n y_f - phi' theta) = 0 for closed-loop data: y, u and the instruments' x and u are
+/// filtered by 1/E; x and y are linearly interpolated between samples.
 struct LoopEquations {
     Matrix Z, Phi;               ///< N x d, experiment after experiment
     Vector y;                    ///< N, p^n y_f

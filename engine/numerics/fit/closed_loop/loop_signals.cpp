@@ -14,7 +14,7 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr Index kFewestWeights = 8, kMostWeights = 128;  // of the projection; doubled in between
-constexpr double kHeldReference = 1e-10;    // of the largest diagonal: weights that a held reference cannot tell apart
+constexpr double kHeldReference = 1e-10;    // of the largest diagonal: weights that a held reference does not determine
 constexpr double kBelievedController = 50;  // per cent of u that C (r - y) must explain
 constexpr double kTimesChance = 4;          // times what as many weights explain of anything by chance
 constexpr double kLeastExplained = 0.02;    // least part of u's variance
@@ -80,8 +80,8 @@ Vector projected(const VectorView& r, const Vector& weights) {
     return u;
 }
 
-/// Per cent of u that the controller makes of r - y; what it had stored before the record, an offset or a slope of an
-/// integrator, is left out.
+/// The percentage of u that the controller explains from r - y. The controller's state before the first sample, and an
+/// offset or a slope of an integrator, are left out.
 double explained_by(const LoopController& controller, const IdData& data, Hold hold_r) {
     double missed = 0, total = 0;
     const Hold hold = controller.sampled() ? Hold::kZoh : Hold::kFoh;

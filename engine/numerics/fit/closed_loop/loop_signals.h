@@ -10,7 +10,7 @@
 
 namespace dynlab::inline numerics {
 
-/// What is known of the loop u = C (r - y) under which a record was taken.
+/// Known properties of the loop u = C (r - y) in which the data were recorded.
 struct LoopKnowledge {
     std::optional<LoopController> controller;  ///< no value: not known
     bool find_computing_delay = false;         ///< none or one sample, whichever makes C (r - y) come nearer to u

@@ -114,7 +114,7 @@ Matrix regression_factor(const std::vector<Vector>& v, const std::vector<Vector>
     return factor.R();
 }
 
-/// Regression of v(k) on its own past (`nd` lags) and that of e (`nc` lags), from sample `first` of each record on.
+/// Regression of v(k) on its past (`nd` lags) and that of e (`nc` lags), from sample `first` of each experiment on.
 Vector regress(const std::vector<Vector>& v, const std::vector<Vector>& e, Index nc, Index nd, Index first) {
     Index rows = 0;
     for (const Vector& record : v) rows += std::max<Index>(0, record.size() - first);

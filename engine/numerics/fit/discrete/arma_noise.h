@@ -17,8 +17,8 @@ struct ArmaNoise {
     static ArmaNoise white(int nc, int nd);  ///< C = D = 1, padded with zeros to the orders
 };
 
-/// e = D/C v for one record. The first nd values are zero, because the v before the record are unknown; from there on
-/// the recursion runs with the e before taken as zero (the conditional likelihood). Linear in v, column by column.
+/// e = D/C v for one experiment. The first nd values are zero, because the v before the first sample are unknown. From
+/// there on the recursion takes the e before as zero (the conditional likelihood). Linear in v, column by column.
 Matrix whitened(const ArmaNoise& noise, const MatrixView& v);
 
 /// Derivatives of v - whitened(v) with respect to [c_1..c_nc d_1..d_nd], where e = whitened(v): q^-j e/C and -q^-i v/C.
@@ -29,10 +29,11 @@ bool inside_unit_circle(const Vector& p);
 /// The same polynomial with roots outside the unit circle replaced by their mirror images, and those on it moved in.
 Vector reflect_roots_into_unit_circle(const Vector& p);
 
-/// The C and D for which sum e^2 over all records is smallest, given the first nd values of each. Starts from `start`
-/// when given, else from Hannan and Rissanen's (1982) two regressions with roots mirrored into the unit circle; then
-/// damped Gauss-Newton with exact derivatives that never leaves it. Throws InvalidArgument for negative orders or too
-/// few samples for a first regression. Reference: Box and Jenkins (1976), chapter 7; Ljung (1999), section 10.2.
+/// Returns the C and D for which sum e^2 over all experiments is smallest, given the first nd values of each. The
+/// search starts from `start` if given, otherwise from Hannan and Rissanen's (1982) two regressions with roots mirrored
+/// into the unit circle. Damped Gauss-Newton with exact derivatives follows, which keeps all roots inside the unit
+/// circle. Throws InvalidArgument for negative orders or too few samples for a first regression. References: Box and
+/// Jenkins (1976), chapter 7; Ljung (1999), section 10.2.
 ArmaNoise estimate_arma(const std::vector<Vector>& records, int nc, int nd, double tolerance,
                         const ArmaNoise* start = nullptr);
 

@@ -8,8 +8,8 @@ namespace dynlab::inline numerics {
 
 // What all fits of difference equations have in common.
 
-/// Throws InvalidArgument, which begins with `method`, for data of several outputs or of other inputs than the orders
-/// have, with delays not shorter than each record, and those of check_sampled_data.
+/// Throws InvalidArgument, with a message that begins with `method`, for data with several outputs, a number of inputs
+/// other than that of the orders, delays not shorter than each experiment, and all errors of check_sampled_data.
 void check_polynomial_data(const std::string& method, const IdData& data, const PolynomialOrders& orders);
 
 /// A fit with its model, sampled every Ts (s), and names made from the values; all else is to be filled.

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kPredictionRounding = 1e-24;  // of the output's mean square: smaller errors hold no noise
 
-constexpr Index kStartSamples = 100000;  // of each record, on which starts are refined and compared
+constexpr Index kStartSamples = 100000;  // of each experiment, on which starts are refined and compared
 
 /// The experiments up to so many samples.
 std::vector<SampledExperiment> first_samples(const std::vector<SampledExperiment>& experiments) {
@@ -23,8 +23,8 @@ std::vector<SampledExperiment> first_samples(const std::vector<SampledExperiment
     return brief;
 }
 
-/// One start in the place of many for a long record: the best one of its beginning, provided that it predicts the whole
-/// record better than all others do.
+/// For long data: one start instead of many, the best one of the beginning, provided that it predicts all samples
+/// better than all others.
 std::vector<Vector> promising_starts(const PredictionModel& model, const StartCondition& condition,
                                      std::vector<Vector> starts, const FitOptions& options) {
     if (model.target().size() < 4 * kStartSamples) return starts;
@@ -117,7 +117,7 @@ Fit fit_prediction(const std::string& method, const PredictionModel& model, cons
         if (const auto root = undetermined_root(letter, p, y.size())) {
             withdraw_errors(fit, root->names);
             fit.warnings.push_back(root->warning);
-            if (letter == 'C' && model.orders().na > 0)  // the unknown errors before the record act on all of them
+            if (letter == 'C' && model.orders().na > 0)  // the unknown errors before the data affect all
                 fit.warnings.push_back(
                     Message("The standard errors of the other coefficients are up to 20 % too small."));
         }

@@ -10,9 +10,10 @@ namespace dynlab::inline numerics {
 /// [the parameters of the orders; the initial values and offsets of DiscreteOutput], for the output-error search: what
 /// it leaves of y is
 ///     e = D/C w,   w = A y - sum_i B_i/F_i u_i - free motion - offset.
-/// Inputs and offset as in DiscreteOutput; with start condition "estimate" the first max(na, nk + nb - 1 - nf) samples,
-/// whose past is not recorded, are left out, otherwise y is zero before the record. The nd samples after them are left
-/// out too, and the e before the first are taken as zero (the conditional likelihood). Sensitivities are exact:
+/// Inputs and offset as in DiscreteOutput. With start condition "estimate" the first max(na, nk + nb - 1 - nf) samples,
+/// whose past is not in the data, are left out; otherwise y is zero before the first sample. The nd samples after them
+/// are also left out, and the e before the first are taken as zero (the conditional likelihood). Sensitivities are
+/// exact:
 ///     d/da_i = -D/C q^-i y,  d/df, d/db = D/C of those of B/F u,  d/dc_j = q^-j e/C,  d/dd_i = -q^-i w/C.
 /// The output is not a number where C or D has roots outside the unit circle, so that the search stays inside.
 class PredictionModel : public OutputErrorModel {

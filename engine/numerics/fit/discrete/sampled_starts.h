@@ -5,9 +5,9 @@
 
 namespace dynlab::inline numerics {
 
-// Starts for models of slowly sampled records. Where a pole turns by a radian and more from sample to sample, filters
-// of the sampled signals tell little of what happens between the samples, and searches that begin with them miss the
-// best model. A difference equation needs no filter: its poles lead back to continuous time (the indirect way).
+// Starts for models of slowly sampled data. If a pole turns by a radian or more from sample to sample, filters of the
+// sampled signals show little of the behavior between the samples, and searches that begin with them miss the best
+// model. A difference equation needs no filter: its poles are converted to continuous time (the indirect method).
 
 /// theta of the structure (one input, one output, regular sampling), with its delay where it is free, best first, at
 /// most three: the poles those of difference equations z^-l B(z)/F(z) that were fitted to the output error

@@ -150,7 +150,7 @@ InstrumentSolution iterate_instruments(const DiscreteOutput& model, const Vector
             best.termination = Termination::kNoProgress;
             return best;
         }
-        // Judged before poles are mirrored: a pole that leaves the circle in every pass has not settled.
+        // Checked before poles are mirrored: a pole that leaves the circle in every pass has not settled.
         const Vector size = here.theta.cwiseAbs() + spread * lengths.cwiseInverse();
         const double change = step.cwiseAbs().cwiseQuotient(size).maxCoeff();
         best.reflected = move(model, y, step, here) || best.reflected;

@@ -25,11 +25,11 @@ struct InstrumentSolution {
 InstrumentSolution iterate_instruments(const DiscreteOutput& model, const Vector& y, const Vector& start,
                                        int max_iterations, double tolerance, const std::function<bool()>& cancel = {});
 
-/// A start for the iteration, or for an output-error search, that needs no guess: least squares on the equation F y = B
-/// u (for several inputs first with a denominator in common, whose channels are then fitted one by one), with signals
-/// and initial values filtered by 1/(1 - alpha q^-1)^n for a sweep of alphas from 0 to 0.98, each followed by a few
-/// instrument iterations: the point of smallest simulation error found. The sweep ends early when two of them
-/// settle on the same loss.
+/// Returns a start for the iteration, or for an output-error search, without initial values: least squares on the
+/// equation F y = B u, with signals and initial values filtered by 1/(1 - alpha q^-1)^n for a sweep of alphas from 0 to
+/// 0.98. Several inputs first share a denominator; then each channel is fitted separately. A few instrument iterations
+/// follow each alpha. The result is the point of smallest simulation error. The sweep ends early when two alphas settle
+/// on the same loss.
 Vector instrument_start(const DiscreteOutput& model, const Vector& y, const std::function<bool()>& cancel = {});
 
 }  // namespace dynlab::inline numerics

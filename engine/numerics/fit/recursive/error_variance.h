@@ -18,8 +18,8 @@ class FadingWeights {
     double sum_ = 0, squares_ = 0;
 };
 
-/// The mean square of weighted errors that come one by one. kInstruments: of the later half to three quarters of them,
-/// for the first are those of a theta that is hardly known; otherwise of all.
+/// The mean square of weighted errors that arrive one at a time. kInstruments: of the last half to three quarters of
+/// them, because the first errors belong to a theta that is still imprecise; otherwise of all.
 template <bool kInstruments>
 class ErrorVariance {
   public:

@@ -8,7 +8,7 @@
 
 namespace dynlab::inline numerics {
 
-/// The equations sum_k w(k) z(k) (y(k) - phi(k)' theta) = 0 taken in one by one, in the form
+/// The equations sum_k w(k) z(k) (y(k) - phi(k)' theta) = 0, added one at a time, in the form
 ///     Q' [Z | Phi | y] = [R | C | c],  R upper triangular, Q orthogonal,
 /// of the weighted rows: a new row is rotated into the array (Givens), so that nothing is ever inverted or subtracted,
 /// and theta = C^-1 c is the batch estimate to rounding at every sample, from an exactly diffuse start. Its covariance
@@ -81,8 +81,8 @@ class InstrumentArray {
     bool known() const { return known_; }        ///< theta is determined
     const Row& theta() const { return theta_; }  ///< of the last sample that determined it
     /// Of the errors; infinite without more rows than parameters. Least squares: that of all rows and the last theta,
-    /// to rounding. Instruments: of the later half to three quarters of the rows, each with the theta of then, for the
-    /// first errors are those of a theta that is hardly known.
+    /// to rounding. Instruments: of the last half to three quarters of the rows, each with its current theta, because
+    /// the first errors belong to a theta that is still imprecise.
     double variance() const { return known_ ? errors_.value(count_) : kInfinity; }
     /// (C'C)^-1, d x d; without meaning unless known.
     Matrix inverse_gram() const {

@@ -18,13 +18,14 @@ struct ProductSums {
 /// T as ProductColor::ratio has it.
 Matrix color_ratio(const ProductSums& sums);
 
-/// How the products z(k) e(k) of instruments and errors add up when the errors are colored, at constant cost a sample:
-/// within blocks of samples they are summed, and the sums' squares are compared with what white errors of the same size
-/// would give (batch means; the blocks are to outlast the errors' memory, and grow with the cube root of the record).
-/// Of the later half to three quarters of the samples, all of the same weight: the first errors are those of a theta
-/// that is hardly known, and a forgetting that leaves few blocks could not tell any color. An estimate that forgets
-/// follows the noise, which shortens the sums of a block of L samples: by (1 - w^L)/(L (1 - w)) for white errors in the
-/// scalar case, where e is w times the change of a first-order lag; they are set against that.
+/// How the products z(k) e(k) of instruments and errors add up if the errors are colored, at constant cost a sample.
+/// The products are summed within blocks of samples, and the squares of the sums are compared with those of white
+/// errors of the same size (batch means; the blocks must outlast the errors' memory, and grow with the cube root of the
+/// data's length). Only the last half to three quarters of the samples count, all with the same weight: the first
+/// errors belong to a theta that is still imprecise, and a forgetting that leaves few blocks could not show any color.
+/// An estimate that forgets follows the noise, which shortens the sums of a block of L samples: by (1 - w^L)/(L (1 -
+/// w)) for white errors in the scalar case, where e is w times the change of a first-order lag. The sums are compared
+/// with this shortened value.
 template <std::size_t kMax>
 class ProductColor {
   public:

@@ -21,13 +21,13 @@ namespace {
 constexpr Index kSamplesBetweenQuestions = 4096;  // whether to stop
 constexpr Index kFirstSamplesPerParameter = 20;
 constexpr double kFilterMemories = 20;      // of the first batch
-constexpr double kBlockMemories = 5;        // of the blocks that tell the errors' color
+constexpr double kBlockMemories = 5;        // of the blocks from which the errors' color is estimated
 constexpr Index kSamplesBetweenLooks = 16;  // at how well the model is known
 constexpr double kSurest = 0.03;            // relative standard errors of coefficients that filters follow
 constexpr double kQuickest = 5;             // poles of a model that filters follow, in cutoff frequencies
 constexpr double kStepRounding = 1e-9;      // relative, of a number of samples: the unit of time must not change it
 
-/// The record as the loop sees it.
+/// The data as the loop uses them.
 struct Samples {
     VectorView y, u;
     Vector t;  // empty for regular sampling

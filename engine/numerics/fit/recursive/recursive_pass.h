@@ -27,18 +27,19 @@ struct RecursiveName {
 
 enum class RecursiveMethod { kLeastSquares, kInstruments, kRefined };
 
-/// One pass over the record, at constant cost a sample, of the equation p^n y_f = phi' theta + e (CARX):
-/// kLeastSquares: filters 1/(p + lambda)^n, z = phi. kInstruments: the same filters, and in z the output of a model,
-/// filtered as y is. kRefined: filters 1/A and the exact sensitivities z = [-p^(n-i) B/A^2 u, p^(m-l)/A u] of a model
-/// B/A. That model is the last estimate that was stable, no quicker than five times lambda and, for kRefined, whose
-/// denominator was known to 3 % (standard errors), one sample late; for the
-/// first samples, 20/lambda seconds of them and at least twenty for each parameter, it is what ivsvf makes of them; or
-/// options.model throughout. Sums by InstrumentArray (fit/recursive/instrument_array.h): with forgetting 1 the end is
-/// the batch estimate to rounding. With `drift` the parameters walk at random between the samples (Kalman filter).
-/// Filters are exact for the hold of u and y between the samples, regular or not (filters/evolving_filter.h). Fills
-/// theta, covariance, noise_variance, history, message and the rest that describe_models fills. Throws InvalidArgument
-/// for options, unsuitable data (check_transfer_data; several experiments, several channels, a delay of no whole number
-/// of samples, more than kMaxEvolvingPoles poles), and where all samples together do not determine theta.
+/// One pass over the data, at constant cost a sample, of the equation p^n y_f = phi' theta + e (CARX). kLeastSquares:
+/// filters 1/(p + lambda)^n, z = phi. kInstruments: the same filters; z uses the output of a model, filtered like y.
+/// kRefined: filters 1/A and the exact sensitivities z = [-p^(n-i) B/A^2 u, p^(m-l)/A u] of a model B/A. That model is
+/// options.model throughout, or else the last suitable estimate, one sample late. An estimate is suitable if it was
+/// stable and no faster than five times lambda; kRefined also requires a denominator known to 3 % (standard errors).
+/// For the first samples (20/lambda seconds, and at least twenty samples for each parameter) the model is that of ivsvf
+/// for these samples. Sums by InstrumentArray (fit/recursive/instrument_array.h): with forgetting 1 the last estimate
+/// is the batch estimate to rounding. With `drift` the parameters follow a random walk between the samples (Kalman
+/// filter). Filters are exact for the hold of u and y, for regular and irregular sampling (filters/evolving_filter.h).
+/// Sets theta, covariance, noise_variance, history, message and the fields that describe_models sets. Throws
+/// InvalidArgument for options, unsuitable data (check_transfer_data; several experiments, several channels, a delay
+/// that is not a multiple of the sampling time, more than kMaxEvolvingPoles poles), and if all samples together do not
+/// determine theta.
 Fit recursive_pass(const RecursiveName& method, RecursiveMethod kind, const IdData& data,
                    const TransferStructure& structure, const RecursiveOptions& options);
 

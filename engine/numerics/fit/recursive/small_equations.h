@@ -67,7 +67,7 @@ bool solve_small(SmallMatrix<kMax> A, SmallRow<kMax> b, std::size_t d, SmallRow<
     return true;
 }
 
-/// The upper triangular root of a symmetric positive definite matrix, U U' = A, in place of its upper triangle.
+/// Replaces the upper triangle of a symmetric positive definite matrix A by its upper triangular root, U U' = A.
 template <std::size_t kMax>
 void upper_root(SmallMatrix<kMax>& U, std::size_t d) {
     for (std::size_t j = d; j-- > 0;) {

@@ -29,7 +29,7 @@ struct BootstrapOptions {
 /// rad/s).
 struct Bootstrap {
     std::vector<std::string> names;
-    Vector estimate;       ///< of the model itself, refitted to the record
+    Vector estimate;       ///< of the model itself, refitted to the data
     Matrix values;         ///< runs x names; NaN where a run was not fitted, or has other poles than the model
     Vector mean, std;      ///< over the runs
     Vector low, high;      ///< of the intervals: quantiles of the values
@@ -40,14 +40,14 @@ struct Bootstrap {
     Message message;
 };
 
-/// Where estimates would lie if the experiment were repeated: its simulated output gets new errors `runs` times, and
-/// the model is fitted to each of these records again, from its own parameters. Residual: the errors that the fit left,
+/// The distribution of estimates under repetition of the experiment: the simulated output gets new errors `runs` times,
+/// and the model is fitted to each of these data sets again, from its parameters. Residual: the residuals of the fit,
 /// without their mean and enlarged by sqrt(N/(N - d)), d all estimated values. Parametric: normal errors of that
-/// variance, through the autoregression of those that were left where they are not white. Run k has the random stream
-/// of seed + k, whatever the threads. Intervals are those of percentiles: they need no normal errors and follow the
-/// curvature that a covariance does not know. Residual errors count as white; where they are not, a warning says so.
-/// Throws InvalidArgument as RefittedOutput, for bad options, and when every run failed. Reference: Efron and
-/// Tibshirani (1993), An Introduction to the Bootstrap, chapters 6, 9 and 13.
+/// variance; if the residuals are not white, colored by their autoregression. Run k has the random stream of seed + k,
+/// for any number of threads. Intervals are percentile intervals: they need no normal errors and follow the curvature
+/// that a covariance neglects. Residual errors count as white; if they are not, a warning says so. Throws
+/// InvalidArgument as RefittedOutput, for bad options, and if every run failed. Reference: Efron and Tibshirani (1993),
+/// An Introduction to the Bootstrap, chapters 6, 9 and 13.
 Bootstrap bootstrap(const RefittedOutput& model, const BootstrapOptions& options = {});
 
 }  // namespace dynlab::inline numerics

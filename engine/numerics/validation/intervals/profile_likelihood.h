@@ -19,7 +19,7 @@ struct ProfileOptions {
 /// How the fit gets worse as one parameter is moved away from its estimate.
 struct Profile {
     std::string name;
-    double estimate = 0, std = 0;     ///< as the fit to the record has them
+    double estimate = 0, std = 0;     ///< those of the fit to the data
     Vector grid, rise;                ///< N ln(S/S_min) with all other parameters fitted again, S the sum of squares
     double level = 0;                 ///< the chi-squared quantile that bounds the interval
     std::optional<double> low, high;  ///< the interval; nothing where the grid ends inside it

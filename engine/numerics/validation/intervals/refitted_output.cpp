@@ -12,7 +12,8 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr double kMostErrorsOff = 3;  // of a model that may be this record's
+constexpr double kMostErrorsOff = 3;  // standard errors: largest change of a parameter by refitting that is accepted
+                                      // without a message
 
 /// A model some of whose parameters stay where they are.
 class HeldOutput : public OutputErrorModel {

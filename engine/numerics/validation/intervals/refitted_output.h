@@ -16,7 +16,7 @@ struct FittedOutput {
     TransferStructure structure;                       ///< of a process model not looked at
     std::optional<ProcessStructure> process;           ///< theta are this one's parameters, where it is given
     Vector theta;                                      ///< s and rad/s
-    StartCondition start{InitialState::kZero, false};  ///< how its records begin
+    StartCondition start{InitialState::kZero, false};  ///< start condition of its data
 
     std::vector<std::string> names() const;
     /// Of a parameter by its name. Throws InvalidArgument that lists the names.
@@ -28,16 +28,16 @@ struct FittedOutput {
 
 class OutputErrorModel;
 
-/// Output-error fits of the same structure again and again, from a solution that is near: to other records of the same
-/// input, and with a parameter held. Delays are free between zero and half of the shortest record.
+/// Repeated output-error fits of the same structure, from a solution nearby: to other data with the same input, and
+/// with a parameter held. Delays are free between zero and half of the shortest experiment.
 class RefittedOutput {
   public:
     /// `data` are what the model was fitted to; they are kept. Throws InvalidArgument for other channels than one input
     /// and one output, no more samples than values to estimate, or parameters that are not finite.
     RefittedOutput(IdData data, FittedOutput fitted);
 
-    /// The fit to the data from the model's own parameters, or with `outputs` (of all experiments, one after the other)
-    /// in place of the measured ones, and with parameters of these places held at values (s). `from`: a fit of this
+    /// The fit to the data from the model's parameters. `outputs` (of all experiments, one after the other) replaces
+    /// the measured ones; `held` gives parameters, by their place, that are held at values (s). `from`: a fit of this
     /// object where the search begins.
     Fit fit(const std::map<Index, double>& held = {}, const Fit* from = nullptr, const Vector* outputs = nullptr) const;
 
