@@ -31,8 +31,8 @@ inline std::vector<std::string> attributes(const std::string& html, const std::s
     return values;
 }
 
-/// The course's site, made once for all tests of the suite. Two files stand for the engine, which needs another
-/// compiler.
+/// The course site, generated once for all tests of the suite. Two placeholder files replace the engine, which needs
+/// another compiler.
 struct MadeSite {
     Workbench bench{Workbench::Memory::kShared};
     ChildResult made;

@@ -78,7 +78,8 @@ TEST(estimator_forms, what_a_new_step_is_given_works) {
 TEST(estimator_forms, functions_know_all_options_that_are_offered) {
     for (const EstimatorForm& one : estimator_forms())
         for (const FormField& field : one.options) {
-            // A function in the place of a value: refused for its kind, if the name is known.
+            // A function as the value of an option: the message refuses its type and does not call the option name
+            // unknown.
             const std::string error = error_of("local G = " + call_of(one, field.name + " = print"));
             EXPECT_THAT(error, Not(HasSubstr("no option"))) << one.name << " " << field.name;
             EXPECT_THAT(error, HasSubstr(field.name)) << one.name << " " << field.name;

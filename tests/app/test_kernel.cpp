@@ -90,7 +90,7 @@ TEST_F(kernel, cells_print_show_values_formulas_and_figures_and_share_locals) {
     EXPECT_EQ(ran.printed, "1\n2\n3\n21\n");
     EXPECT_EQ(ran.first("execute_result")["data"], (json{{"text/plain", "22"}}));
     EXPECT_EQ(ran.first("execute_result")["execution_count"], ran.reply["execution_count"]);
-    // Field case 17: a function of one's own shows its value, too, and a call without values shows nothing.
+    // Field case 17: a call of a user-defined function shows its value as well. A call without values shows nothing.
     ran = client().run("local function half(x) return x/2 end\nhalf(8)");
     EXPECT_EQ(ran.first("execute_result")["data"], (json{{"text/plain", "4"}}));
     ran = client().run("local t = {f = function(a, b) return a, b end}\nt.f(\n  1,\n  2)");
@@ -219,7 +219,7 @@ TEST_F(kernel, what_is_not_signed_or_no_message_is_not_answered) {
     EXPECT_THAT(client().complaints(), HasSubstr("not answered: a message is not signed with this kernel's key"));
 }
 
-/// A client's socket that sends frames as they are; nobody needs the key for that.
+/// A client socket that sends raw frames. Sending needs no key.
 class RawSocket {
   public:
     RawSocket(const KernelClient& client, int port) {
@@ -277,7 +277,7 @@ TEST_F(kernel, odd_frames_without_the_key_end_nothing) {
     EXPECT_EQ(client().run("print(kept)").printed, "8\n");
 }
 
-// oracle: the cell counts how often it runs; whoever can read what is sent may send it again
+// oracle: the cell counts its runs; a process that can read a message can also send it again
 TEST_F(kernel, a_message_that_comes_again_is_not_answered) {
     MessageWire& ours = client().wire();
     client().run("times = 0");
@@ -287,7 +287,7 @@ TEST_F(kernel, a_message_that_comes_again_is_not_answered) {
     EXPECT_THAT(client().complaints(), HasSubstr("not answered: a message was received twice"));
 }
 
-// oracle: the kernel's memory; nobody needs the key to send
+// oracle: the memory use of the kernel; a sender needs no key
 TEST_F(kernel, a_frame_of_many_megabytes_is_not_taken) {
     const double before = megabytes_of(client().process());
     client().send({"<IDS|MSG>", std::string(200 << 20, 'x'), "{}", "{}", "{}", "{}"});

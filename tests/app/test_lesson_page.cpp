@@ -1,4 +1,4 @@
-// A lesson of one's own as a page of a site. Oracle: the lesson's few lines, read by hand.
+// A user-written lesson as a page of a site. Oracle: the few lines of the lesson, read by hand.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// A document that follows its files, without a browser. Oracle: the files that the test writes, and the order in which
-// a reader is to be told of things.
+// A live document that follows its files, without a browser. Oracles: the files that the test writes, and the order of
+// the states that the reader sees.
 #include "app/live/live_document.h"
 
 #include <gmock/gmock.h>
@@ -27,7 +27,7 @@ class live_document : public testing::Test {
         std::ofstream(folder.path() / "analysis.lua") << "-- %% id=one\nprint(\"it is \" .. 3 + 4)\n";
     }
 
-    /// Shows the document until its run is over; notes what a reader is told.
+    /// Shows the document until its run is over and keeps the reported states.
     void open() {
         readings = 0, reported.clear();
         std::counting_semaphore<> over(0);
@@ -47,7 +47,7 @@ class live_document : public testing::Test {
         });
         document.allow_runs();
         const std::jthread reader([&] {
-            if (over.try_acquire_for(30s)) std::this_thread::sleep_for(300ms);  // nothing more is told then
+            if (over.try_acquire_for(30s)) std::this_thread::sleep_for(300ms);  // no state is reported after that
             document.end();
         });
         document.work();
@@ -59,7 +59,7 @@ class live_document : public testing::Test {
     std::vector<std::string> reported;
 };
 
-/// What is made beside the page waits for the end of the run, and is told of the document once.
+/// `on_reading` runs once for the document, after the end of the run.
 TEST_F(live_document, of_before_is_shown_until_its_run_is_over_and_read_once) {
     open();
     ASSERT_FALSE(reported.empty());

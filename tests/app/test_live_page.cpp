@@ -71,7 +71,7 @@ const Message kWrong = Message("{}{}", "analysis.lua:3: ", Message("unknown func
 constexpr const char* kWrongInEnglish = "analysis.lua:3: unknown function or variable 'y'";
 constexpr const char* kWrongInFrench = "analysis.lua:3: il n'y a ni fonction ni variable «\u00A0y\u00A0»";
 
-/// Findings are made in English, as programs read them.
+/// Issues are created in English, as programs read them.
 TEST_F(live_page, reports_in_the_document_s_language_what_is_wrong_and_found) {
     CheckResult result;
     result.checked = {Message("checks of lesson {}: {} of {} points", "a", 0, 3)};
@@ -103,7 +103,7 @@ TEST_F(live_page, reports_in_the_document_s_language_what_is_wrong_and_found) {
     EXPECT_TRUE(whole()["findings"].is_null());
 }
 
-/// A header that turns to another language takes along what was told before it.
+/// When the header switches to another language, earlier problems are reported again in that language.
 TEST_F(live_page, reports_again_in_a_new_language_what_was_wrong_before) {
     const json english = json::array({kWrongInEnglish}), french = json::array({kWrongInFrench});
     const auto changed = [&] { return json::parse(page.changes().value())["complaints"]; };

@@ -97,7 +97,7 @@ TEST(notebook, what_was_changed_in_jupyter_counts) {
 }
 
 TEST(notebook, what_a_cell_shows_is_what_is_run) {
-    // Lines that are remembered hold only where they say what the cell says; nothing in a cell begins another.
+    // The stored lines of a cell are used only if they match its source. Nothing in a cell starts another cell.
     const json hidden = {{"dynlab", {{"written", "-- %%\nx = 1\n-- %%\nanswer('a', 2)\n"}}}};
     EXPECT_EQ(script_of_notebook(notebook_with({cell("code", "x = 1", hidden)}).dump(), "a").source, "-- %%\nx = 1\n");
     const json other = {{"dynlab", {{"written", "-- %%\nx = 2\n"}, {"options", "id=a\nx = 7"}}}};
@@ -196,7 +196,7 @@ TEST(notebook, the_command_goes_both_ways_and_keeps_what_others_wrote) {
     bench.write("a.lua", source);
     EXPECT_EQ(bench.dynlab({"notebook", "a.lua"}).output, "a.ipynb\n");
     bench.write("a.lua", "");
-    EXPECT_THAT(bench.dynlab({"notebook", "a.ipynb"}).error_output, HasSubstr("a.lua"));  // it is somebody's
+    EXPECT_THAT(bench.dynlab({"notebook", "a.ipynb"}).error_output, HasSubstr("a.lua"));  // the user's file
     EXPECT_EQ(bench.read("a.lua"), "");
     EXPECT_EQ(bench.dynlab({"notebook", "a.ipynb", "--force"}).output, "a.lua\n");
     EXPECT_EQ(bench.read("a.lua"), source);

@@ -178,7 +178,7 @@ TEST_F(office_page, two_windows_and_a_terminal_lose_nothing) {
     const auto order = [&](const std::vector<std::string>& words) {
         return json::parse(other.post("/command", json{{"command", words}, {"language", "en"}}.dump())->body);
     };
-    // The other window marks what this one has not seen marked: here by a request of its own.
+    // The other window sets a mark that this window has not shown yet. Here, the test sends that request.
     const std::string before = other.get("/entry?assignment=lab4&check=q3&name=" + names[0])->body;
     EXPECT_EQ(json::parse(before)["id"], 0);
     EXPECT_EQ(order({"course", "mark", "lab4", names[0], "q3", "1", "--after=0", "--reason=seen by A"})["code"], 0);

@@ -1,5 +1,5 @@
-// The views of the instructor's page, and the commands that it needs besides those of before. Oracle: what other
-// commands print of the same course.
+// The views of the instructor page, and the commands that they add. Oracle: the output of other commands for the same
+// course.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

@@ -65,7 +65,8 @@ std::string first_argument(const std::string& text, std::size_t begin) {
     return text.substr(begin, end - begin);
 }
 
-/// Keys that stand whole in say(...), other values in them aside, and those that the HTML names.
+/// The keys that are complete literals in say(...), and the keys named in the HTML. Compared and appended literals do
+/// not count.
 std::set<std::string> keys_shown(const std::string& text) {
     static const std::regex call(R"(\bsay\()"), key(R"re("(\w+)"(?! *\+))re"), other(R"re((===|!==|\+) *"[^"]*")re"),
         named(R"re(data-say(?:-title|-label)?="(\w+)")re");
@@ -81,7 +82,7 @@ std::set<std::string> keys_shown(const std::string& text) {
     return keys;
 }
 
-/// The pages whose words stand in page_words.js: of live documents, and of a prompt's figures.
+/// The pages whose texts are in page_words.js: live documents and the figures of a prompt.
 const std::vector<std::string> kPreview = {"index.html", "page.js",    "editor.js", "drafts.js", "findings.js",
                                            "hand_in.js", "sliders.js", "view.html", "view.js",   "text_cells.js"};
 
@@ -145,7 +146,7 @@ TEST(page_words, of_the_workbench_have_rows_and_no_row_is_unused) {
     }
 }
 
-/// The keys of states, and of the kinds of things to do, are put together of a name and an ending, or stand in tables.
+/// The keys of states and of to-do items are built from a name and a suffix, or are in tables.
 TEST(page_words, of_the_instructor_s_page_have_rows_and_no_row_is_unused) {
     const Rows rows = rows_of("office_words.js");
     const std::string code = code_of(office_files());

@@ -67,7 +67,7 @@ TEST_F(preview_page, changes_only_what_has_changed) {
         "[\"Words at an end.\"]");
 }
 
-/// What stands at the top of the window stays there, whatever grows above or below it.
+/// The content at the top of the window keeps its place when content above or below it grows.
 TEST_F(preview_page, does_not_jump) {
     std::string many;
     for (int i = 0; i < 60; ++i)
@@ -190,7 +190,7 @@ TEST_F(preview_page, an_untrusted_document_is_shown_and_runs_only_after_consent)
 TEST_F(preview_page, tabs_come_and_go_and_the_end_is_reported) {
     write(kHead + kFirst);
     Preview preview(file());
-    Browser browser(1280, 900, Browser::Kind::kWhole);  // which tells a tab that it is hidden
+    Browser browser(1280, 900, Browser::Kind::kWhole);  // reports to a tab that it is hidden
     for (int i = 0; i < 10; ++i) {
         if (i > 0) browser.new_tab();
         browser.open(preview.address());
@@ -250,7 +250,7 @@ TEST_F(preview_page, takes_up_a_stream_that_was_cut_and_has_lost_nothing) {
     EXPECT_TRUE(browser.becomes_true("!document.getElementById('state').innerText.includes('no response')"));
 }
 
-/// A lid that is closed: the program stands still, files change, and it wakes up.
+/// A closed laptop lid: the program is suspended, files change, and the program resumes.
 TEST_F(preview_page, wakes_up_with_the_newest_document) {
     write(kHead + kFirst + kPlot);
     const Preview preview(file());

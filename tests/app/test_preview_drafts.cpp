@@ -19,18 +19,18 @@ namespace fs = std::filesystem;
 const std::string kOffered = "!document.getElementById('draft').hidden",
                   kConflict = "!document.getElementById('conflict').hidden";
 
-/// Clicks are made by scripts here, since a page that a hand has touched asks before it is left.
+/// The tests click by script, because a page that a user has touched asks before it closes.
 class preview_drafts : public preview_page {
   protected:
     preview_drafts() { write(kHead + kFirst); }
     void begin() { preview = std::make_unique<Preview>(file(), true, std::vector<std::string>{"--edit"}); }
-    /// As after a crash: the tab that was there is gone.
+    /// As after a crash: the earlier tab is closed.
     void open() {
         browser.open(preview->address());
         ASSERT_TRUE(editor_has("local x = 20"));
     }
     void press(const std::string& id) { browser.evaluate("document.getElementById('" + id + "').click()"); }
-    /// Types into the editor behind everything that stands there.
+    /// Appends text to the content of the editor.
     void type(const std::string& text) {
         browser.evaluate("const m = document.querySelector('.CodeMirror').CodeMirror; m.setValue(m.getValue() + `" +
                          text + "`)");

@@ -19,7 +19,7 @@ using namespace std::chrono_literals;
 class preview_editing : public preview_page {
   protected:
     std::string text_of(const std::string& name = "analysis.lua") const { return read_text(file(name)); }
-    /// Types into the editor behind everything that stands there.
+    /// Appends text to the content of the editor.
     static void type(Browser& browser, const std::string& text) {
         browser.evaluate("const m = document.querySelector('.CodeMirror').CodeMirror; m.setValue(m.getValue() + `" +
                          text + "`)");
@@ -38,7 +38,7 @@ const std::string kSlider =
 const std::string kMoveTo8 =
     "const s = document.getElementById('slider-k'); s.value = 14; s.dispatchEvent(new Event('input'))";
 
-/// Long calls below a slider that do not depend on it are recalled, not computed again. Oracle: the memory of calls.
+/// Moving a slider takes the later long calls that do not depend on it from the cache. Oracle: the call cache.
 TEST_F(preview_editing, a_slider_leaves_long_calls_that_do_not_depend_on_it) {
     write(
         kHead +
@@ -98,7 +98,7 @@ const std::string kHandle =
     "plot({0, 10}, {K, K}, {x_range = {0, 10}, y_range = {0, 5}}):handle{x = function(T) return T end, x_slider = "
     "\"T\", y = function(K) return K end, y_slider = \"K\", text = \"end\"}\n";
 
-/// A hand at a mark goes on with it while runs exchange the figure below.
+/// A drag of a handle continues while runs replace the figure below the pointer.
 TEST_F(preview_editing, a_handle_moves_its_sliders_while_it_is_held) {
     write(kHead + kHandle);
     const Preview preview(file());
@@ -216,7 +216,8 @@ TEST_F(preview_editing, an_edit_on_both_sides_shows_both) {
     EXPECT_EQ(browser.evaluate("return document.getElementById('conflict').hidden"), "true");
 }
 
-/// A disk that takes nothing (here: the folder is gone) loses nothing: the page says so and keeps the text.
+/// A disk that rejects writes (here: the folder is missing) loses no text: the page reports the error and keeps the
+/// text.
 TEST_F(preview_editing, what_cannot_be_saved_stays_on_the_page) {
     fs::create_directory(folder.path() / "work");
     write(kHead + kFirst, "work/analysis.lua");
@@ -275,7 +276,7 @@ TEST_F(preview_editing, line_ends_stay_as_they_are) {
     EXPECT_THAT(text_of(), testing::EndsWith(" .. x)\r\nprint(\"more\")\r\n"));
 }
 
-/// Saves in quick succession are one after the other: none takes another for somebody else's.
+/// Saves in quick succession run in order. No save mistakes an earlier save for a change by another program.
 TEST_F(preview_editing, saves_do_not_meet_each_other) {
     write(kHead + kFirst);
     const Preview preview(file(), true, {"--edit"});
@@ -291,7 +292,7 @@ TEST_F(preview_editing, saves_do_not_meet_each_other) {
     EXPECT_THAT(text_of(), testing::EndsWith("-- line 19\n"));
 }
 
-/// A choice that the script no longer allows becomes the nearest that it does; one for a slider that is gone is gone.
+/// A choice that the script no longer allows becomes the nearest allowed one. A choice for a removed slider is removed.
 TEST_F(preview_editing, choices_follow_the_script) {
     write(kHead + kSlider);
     const Preview preview(file());

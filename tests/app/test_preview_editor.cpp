@@ -1,5 +1,5 @@
-// The editor beside the page of `dynlab preview --edit`: what it offers and says while somebody types, and what runs
-// when. Oracles: the catalog of functions, the values that the script's own lines give, and the files afterwards.
+// The editor beside the page of `dynlab preview --edit`: its completions and messages while the user types, and when
+// code runs. Oracles: the function catalog, the values that the lines of the script give, and the files afterwards.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
@@ -266,7 +266,7 @@ TEST_F(preview_editor, only_the_page_itself_may_ask) {
         EXPECT_EQ(status(stranger), 403) << path << " without the cookie";
         EXPECT_EQ(page.get(path)->status, 404) << path << " by GET";
     }
-    // Before somebody allows it, nothing of the script is known, and no order runs it.
+    // Until the user allows runs, the variables of the script are unknown, and no order runs the script.
     write("-- %% id=a\nsecret = 1\nprint(\"it ran\")\n", "other.lua");
     const Preview other(file("other.lua"), false, {"--edit"});
     const PageClient asked(other.address());

@@ -114,9 +114,9 @@ TEST_F(preview_following, follows_pictures_and_literature) {
     EXPECT_TRUE(browser.becomes_true("document.body.innerText.includes('Circuits')"));
 }
 
-/// A picture that nobody can read is told of; the page goes on.
+/// The page reports an unreadable picture and keeps working.
 TEST_F(preview_following, a_picture_that_cannot_be_read_does_not_end_the_page) {
-    fs::create_symlink("/proc/self/mem", file("rig.png"));  // a file whose reading fails, whoever reads
+    fs::create_symlink("/proc/self/mem", file("rig.png"));  // reading fails for every user
     const std::string text = "-- ---\n-- title: A document\n-- ---\n\n-- %% [markdown]\n-- ![The rig](rig.png)\n--\n";
     write(text + "-- Before.\n");
     const Preview preview(file());
@@ -150,7 +150,7 @@ TEST_F(preview_following, what_a_run_still_gives_is_not_complained_of) {
     EXPECT_EQ(browser.evaluate("return window.ever"), "\"\"");
 }
 
-/// Nobody waits for what an older text computes, and nobody must stop it.
+/// A run of an older text does not delay the newer run, and the user does not need to stop it.
 TEST_F(preview_following, a_run_of_an_older_text_is_given_up) {
     write(kHead + "-- %% id=loop\nwhile true do end\n");
     const Preview preview(file());

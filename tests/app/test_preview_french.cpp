@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 class preview_french : public preview_page {
   protected:
-    /// What a part of the page says, shown or told to those who do not see it.
+    /// The texts of a part of the page: those on the screen and those for screen readers.
     static std::string all_words(Browser& browser, const std::string& selector) {
         return browser.evaluate("return [...document.querySelectorAll('" + selector +
                                 "')].flatMap((part) => [part, "

@@ -1,5 +1,5 @@
-// What a live page offers to learn by: questions that answer, rigs that move. Oracle: the files that the test writes,
-// and what a reader sees.
+// Learning aids of a live page: questions with answers and animated plants. Oracle: the files that the test writes, and
+// what a reader sees.
 #include <gtest/gtest.h>
 
 #include "platform/atomic_file.h"

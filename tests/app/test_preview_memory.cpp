@@ -63,7 +63,7 @@ TEST_F(preview_memory, is_whole_at_once_when_it_is_opened_again) {
     EXPECT_TRUE(browser.becomes_true("!document.getElementById('state').innerText.includes('before')"));
 }
 
-/// Changes made while the page is that of the run before, or while nobody looked, are not hidden by it.
+/// The cached page of the previous run does not hide a change made while that page was shown or while no page was open.
 TEST_F(preview_memory, cached_pages_do_not_hide_changes) {
     const auto written = [&](const std::string& x) {
         write(kHead + "-- %% id=slow\nlocal s = 0 for i = 1, 5e7 do s = s + 1 end\nprint(\"it is \" .. s)\n\n" +

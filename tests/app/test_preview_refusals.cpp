@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 class preview_refusals : public testing::Test {
   protected:
-    /// What it says when it ends by itself.
+    /// The error message of a preview that refuses to start.
     std::string refusal(std::vector<std::string> words, int exit_code = 1) const {
         words.insert(words.begin(), {"preview", "--no-browser"});
         const ChildResult result = bench.dynlab(words);

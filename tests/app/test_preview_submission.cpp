@@ -1,5 +1,5 @@
-// From the page to what is handed in: what is open, what it is worth, the report and the zip. Oracle: the files in the
-// folder afterwards, and the questions and points that the test itself wrote down.
+// From the page to the submission: open items, points, the report and the ZIP file. Oracle: the files in the folder
+// afterwards, and the questions and points that the test wrote.
 #include <gmock/gmock.h>
 
 #include "platform/atomic_file.h"
@@ -105,7 +105,7 @@ TEST_F(preview_submission, the_checks_are_followed) {
         << browser.evaluate("return " + reported);
 }
 
-/// A question with two blanks is one; an answer that is not given is not told a second and a third time.
+/// A question with two blanks counts once. A missing answer is listed once.
 TEST_F(preview_submission, each_thing_is_counted_once_and_points_are_shown) {
     make_folder();
     const Preview preview(mine());

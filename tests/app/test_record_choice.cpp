@@ -59,7 +59,7 @@ TEST_F(record_choice, all_channels_of_one_experiment_are_offered) {
     EXPECT_EQ(channels("u,y,u_val,y_val,u_high,y_high"), std::pair(Names{"u"}, Names{"y"}));
 }
 
-/// Experiments in structs; a record again in place of itself, another behind it.
+/// Experiments in structs. The same data set replaces its cell; another data set follows it.
 TEST_F(record_choice, a_record_takes_the_place_of_itself) {
     const RecordOrder order{"crane", {"estimation.u"},       {"estimation.theta", "estimation.x"}, "estimation.t", 0,
                             "data",  {{"estimation.x", "m"}}};

@@ -1,5 +1,5 @@
-// A script that is run again and again while it is written. Oracle: what cells count in a file each time they run, and
-// the record that a run of the whole gives.
+// A script that runs again and again while the user writes it. Oracles: the counts that cells write to a file at each
+// run, and the results of a run of the complete script.
 #include "app/live/script_runner.h"
 
 #include <gmock/gmock.h>
@@ -70,7 +70,7 @@ TEST_F(script_runner, runs_only_from_the_first_change_on) {
     EXPECT_EQ(printed("c"), "30\n");
 }
 
-/// What somebody asks while he types is answered from the state behind the last part, and changes nothing.
+/// The runner answers questions during typing from the state after the last cell. The answers change nothing.
 TEST_F(script_runner, questions_are_answered_from_the_state_that_the_script_left) {
     const auto answer = [&](const std::string& question, const std::string& text) {
         RunOrder order;
@@ -114,7 +114,7 @@ TEST_F(script_runner, text_alone_runs_nothing) {
     EXPECT_THAT(run(kA + kB + kC), ElementsAre(2));
 }
 
-/// A slider that was moved runs its cell and what follows; one that stands where the script puts it runs nothing.
+/// A moved slider runs its cell and the cells after it. A slider at the value set by the script runs nothing.
 TEST_F(script_runner, a_slider_runs_only_from_its_cell_on) {
     const std::string source = kA + "-- %% id=b\nlocal k = slider(\"k\", 3, 1, 10)\nwork()\nprint(k)\n" +
                                "-- %% id=c\nwork()\nprint(k * 10)\n";
@@ -194,7 +194,7 @@ TEST_F(script_runner, an_endless_loop_is_stopped_and_the_next_run_goes_on_before
     EXPECT_EQ(printed("c"), "new\n");
 }
 
-/// Out of memory for good, or killed: the run is over and the next one runs.
+/// A process that runs out of memory or is killed ends its run. The next run still starts.
 TEST_F(script_runner, survives_the_death_of_its_processes) {
     order(kA + kB + "-- %% id=c\nwhile true do end\n");
     pid_t process = 0;

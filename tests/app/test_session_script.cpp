@@ -1,4 +1,4 @@
-// The steps that the workbench sees in a script, and edits of its lines. Oracle: what the lines say, by eye.
+// The steps that the workbench finds in a script, and edits of its lines. Oracle: the lines, read by the author.
 #include "app/workbench/session_script.h"
 
 #include <gmock/gmock.h>
@@ -118,7 +118,7 @@ TEST(session_script, what_shares_its_lines_with_other_text_is_no_step) {
     EXPECT_EQ(only_step("-- off: z = f(1)  -- why\n").rest, "  -- why");
 }
 
-/// Nobody writes such lines, but programs do, and the session that shows them must not end.
+/// People do not write such lines, but programs do. The session that shows them must not exit.
 TEST(session_script, lines_may_be_long) {
     const std::string letters(3'000'000, 'x'), blanks(3'000'000, ' ');
     const std::string remark = "--" + letters, step = "a = 1";

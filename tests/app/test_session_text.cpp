@@ -79,7 +79,7 @@ TEST_F(session_text, takes_what_another_program_wrote_but_not_its_own) {
     EXPECT_FALSE(text.read_changed_file());
 }
 
-/// Where nobody tells of it, as on a network drive that another machine writes to.
+/// The file system reports no change, as on a network drive to which another machine writes.
 TEST_F(session_text, an_order_is_not_written_over_what_another_program_wrote) {
     SessionText text(file);
     text.put("a = 1\n");

@@ -104,7 +104,7 @@ void check_examples(const Workbench& bench, const std::map<std::string, std::str
     int shown = 0;
     for (const auto& entry : fs::directory_iterator(kSource / "engine/scripting/reference")) {
         if (entry.path().extension() != ".md") continue;
-        const std::string name = entry.path().stem().string() + ".html";  // of a function, or of a subject of its own
+        const std::string name = entry.path().stem().string() + ".html";  // of a function or of a topic
         const auto page = pages.find((pages.contains("guides/" + name) ? "guides/" : "functions/") + name);
         ASSERT_NE(page, pages.end()) << entry.path();
         shown += page->second.find("<pre class=\"output\">") != std::string::npos ||
@@ -170,7 +170,7 @@ void check_search(Reader& reader) {
     EXPECT_THAT(reader.found("isolation sandbox"), Contains(HasSubstr("guides/guide-instructor.html")));
     EXPECT_THAT(reader.found("zzyzx"), testing::IsEmpty());
     EXPECT_THAT(reader.found("..."), testing::IsEmpty());
-    // By hand: the key that leads to the field, the list, the way to the page.
+    // By keyboard and mouse: the key that leads to the field, the list, the way to the page.
     reader.browser().evaluate(
         "document.dispatchEvent(new KeyboardEvent('keydown', {key: '/', bubbles: true}));"
         "const field = document.getElementById('search'); window.there = document.activeElement === field;"
@@ -248,7 +248,7 @@ TEST(site, replaces_its_own_files_alone) {
     EXPECT_EQ(read_file(site / "index.html"), "two");
     EXPECT_FALSE(fs::exists(site / "old.html"));
     EXPECT_EQ(read_file(site / "notes.txt"), "mine");
-    // Neither what somebody changed nor what somebody put there is lost.
+    // The site command preserves files that the user changed or added.
     EXPECT_THROW(write_site_folder(site, {{"index.html", "three"}, {"notes.txt", "manual's"}}), EnvironmentError);
     EXPECT_EQ(read_file(site / "index.html"), "two");
     write_file_atomically(site / "index.html", "with my remarks");

@@ -123,7 +123,7 @@ TEST(site, files_json_lists_every_file_with_its_hash) {
         for (const json& file : files)
             EXPECT_EQ(site.files.at("data/" + name + "/" + file["file"].get<std::string>()).size(),
                       file["bytes"].get<std::size_t>());
-    // The measured record of a Debian package, with every digit: read by the program from both places.
+    // The measured data of a Debian package, with every digit. The program reads the same data from both places.
     site.bench.write("both.lua",
                      "local a, b = load(\"hairdryer\"), load(\"site/data/hairdryer/hairdryer.csv\")\n"
                      "local same = a.Ts == b.Ts and #a.y == #b.y\n"
@@ -199,7 +199,7 @@ TEST(site, contains_no_line_of_a_solution) {
     for (const auto& entry :
          fs::recursive_directory_iterator(fs::path(DYNLAB_SOURCE_DIR) / "engine/scripting/reference"))
         if (entry.is_regular_file()) open += letters_of(read_file(entry.path()));
-    // The workbench writes scripts of its own.
+    // The workbench also writes scripts.
     for (const auto& entry : fs::directory_iterator(fs::path(DYNLAB_SOURCE_DIR) / "engine/app/workbench"))
         open += letters_of(read_file(entry.path()));
     std::size_t searched = 0;

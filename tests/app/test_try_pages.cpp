@@ -29,7 +29,7 @@ class try_pages : public testing::Test {
         return std::stod(value("document.querySelector('.slider:has(#slider-" + slider + ") output').textContent")
                              .get<std::string>());
     }
-    /// A hand takes the handle of that name to a place of the panel it lies in.
+    /// The pointer drags the handle of that name to a place in the handle's panel.
     void drag(const std::string& name, double x, double y) {
         const json places =
             value("(() => { const { plot } = box, handle = plot.handles.find(one => one.mark.name === '" + name +

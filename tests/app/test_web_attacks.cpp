@@ -1,6 +1,5 @@
-// What nobody may achieve at a server of pages: by requests written by hand, by pages of other sites in the user's
-// browser, by floods of connections. Oracle: nothing is ordered, each connection gets one reply at most and is closed,
-// and the user's page is still served.
+// Attacks on a page server: handwritten requests, pages of other sites in the user's browser, floods of connections.
+// Oracle: no order runs, each connection gets at most one reply and is closed, and the user's page is still served.
 #include <arpa/inet.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -221,7 +220,7 @@ TEST_F(web_attacks, heads_have_a_size_a_number_of_fields_and_a_time) {
     EXPECT_LT(std::chrono::steady_clock::now() - begin, 18s) << "a head has ten seconds";
 }
 
-/// Everybody on the machine can connect; those who do not show a cookie keep nobody out.
+/// Every user of the machine can connect. Connections without a cookie do not block other clients.
 TEST_F(web_attacks, many_connections_do_not_close_the_page) {
     std::vector<FileDescriptor> halves;
     for (int i = 0; i < 200; ++i) {

@@ -267,7 +267,7 @@ TEST_F(web_server, no_other_program_gets_its_port_at_the_other_address_of_this_m
     }
 }
 
-/// Reads a stream in a thread of its own until it has seen `expected`.
+/// Reads a stream in a separate thread until it has seen `expected`.
 class Listener {
   public:
     Listener(const PageClient& page, std::string expected)

@@ -1,5 +1,5 @@
-// `dynlab app` in a browser: every click is a line of the script on disk. Oracle: that script, what it gives when it is
-// run by itself, and what the page says.
+// `dynlab app` in a browser: every click is a line of the script on disk. Oracles: that script, its results when
+// `dynlab run` runs it, and the text of the page.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -75,7 +75,7 @@ double control(Browser& browser, const std::string& name) {
                          "'))?.querySelector('input'); "
                          "return found ? Number(found.value) : 'NaN'"));
 }
-/// Puts the slider of this name to some places, as a hand that holds it, and lets it go.
+/// Drags the slider of this name to some places and releases it.
 void drag(Browser& browser, const std::string& name, const std::string& places) {
     browser.evaluate("return (async () => { for (const at of [" + places +
                      "]) { const slider = [...document.querySelectorAll('#steps label')].find((one) => "
@@ -110,7 +110,7 @@ TEST_F(workbench, a_script_written_by_hand_is_shown_and_the_rest_of_it_left_alon
     expected.replace(expected.find("G1 = srivc"),
                      std::string("G1 = srivc(data, {1, 2, 0}, {lambda = 3}) -- a remark").size(),
                      "G1 = srivc(data, {1, 2, 0}, {lambda = 8.32}) -- a remark");
-    for (int i = 0; i < 500 && text_of("mine.lua") == kSession; ++i)  // the file waits for the hand to let go
+    for (int i = 0; i < 500 && text_of("mine.lua") == kSession; ++i)  // the file changes after the release
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     EXPECT_EQ(text_of("mine.lua"), expected);
     ASSERT_TRUE(press(browser, "Undo"));

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr int kOk = 200, kFailed = 500;
 
-/// What somebody with the page's cookie sends.
+/// A client that has the page's cookie.
 class Asker : public PageClient {
   public:
     using PageClient::PageClient;
@@ -119,7 +119,7 @@ TEST_F(workbench_attacks, settings_that_are_nested_deep_are_refused) {
     EXPECT_TRUE(page.prints("a", "2\n"));
 }
 
-/// The script's place is a folder for a while: nothing can be written there, whoever runs the test.
+/// The path of the script is a folder for a while, so that writing fails for every user.
 TEST_F(workbench_attacks, what_is_not_saved_is_reported_until_it_is) {
     const auto program = allowed("s.lua", kPrints);
     const Asker page(program->address());

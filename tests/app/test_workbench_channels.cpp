@@ -1,5 +1,5 @@
-// Records of several outputs on the workbench's page. Oracles: the script on disk, what it gives when it is run by
-// itself, and where things are in the window.
+// Data sets with several outputs on the workbench page. Oracles: the script on disk, its results when `dynlab run` runs
+// it, and the positions in the window.
 #include <gmock/gmock.h>
 
 #include "support/program.h"
@@ -14,7 +14,7 @@ using testing::Not;
 
 class workbench_channels : public workbench_page {
   protected:
-    /// Clicks what hands reach: a summary, a button, or an option of a list.
+    /// Clicks a control that a user can reach: a summary, a button, or an option of a list.
     static bool take(Browser& browser, const std::string& find, const std::string& act) {
         return browser.becomes_true("(() => { const found = " + find +
                                     "; if (!found || found.disabled || !found.offsetParent) return false; " + act +
@@ -48,7 +48,7 @@ class workbench_channels : public workbench_page {
     static bool rests(Browser& browser) {
         return browser.becomes_true("document.getElementById('state').textContent === 'up to date'", 120);
     }
-    /// Nothing tells of the program's inside, and no view is a heap of nothing.
+    /// The page shows no internal error, and no view is empty.
     static void expect_no_dead_end(Browser& browser) {
         EXPECT_EQ(browser.evaluate("return document.getElementById('trouble').hidden"), "true");
         EXPECT_EQ(browser.evaluate("return document.body.innerText.includes('workbench:')"), "false");
@@ -65,7 +65,7 @@ class workbench_channels : public workbench_page {
     }
 };
 
-/// Tutorial 4.1: position and angle, judged on another experiment, from the file to the report in six clicks.
+/// Tutorial 4.1: position and angle, validated on another experiment, from the file to the report in six clicks.
 TEST_F(workbench_channels, the_crane_with_both_outputs_is_reported_with_validation_in_six_clicks) {
     const auto program = app("crane");
     Browser browser;
@@ -151,7 +151,8 @@ TEST_F(workbench_channels, a_search_left_over_from_other_channels_is_fixed_or_de
     }
 }
 
-/// A model of one output stands beside those of all; one of no output of the data is named, and no view is left empty.
+/// A model of one output appears with the models of all outputs. The page names a model that has no output of the data.
+/// No view is empty.
 TEST_F(workbench_channels, models_of_some_outputs_are_shown_where_they_belong) {
     write("mine.lua", kTwoOutputs +
                           "-- %% id=G1\nG1 = tfsrivc(data, 2, 0, {TdMax = 0})\n\n-- %% id=G2\nG2 = "
@@ -194,7 +195,7 @@ TEST_F(workbench_channels, the_first_model_has_a_delay_only_where_no_lag_explain
     EXPECT_THAT(proposal("late", "tf({2}, {1, 4, 3}, {IODelay = 0.43})"), HasSubstr("tfsrivc(data, 2, 0)"));
 }
 
-/// In a window of 800 pixels, with what stands above it.
+/// The window is 800 pixels high, and other content comes above the view.
 TEST_F(workbench_channels, a_view_that_was_asked_for_is_in_sight) {
     write("step.lua",
           "-- %% id=record\nlocal u = step_signal(300, 30)\nlocal y = lsim(tf({2}, {3, 1}), u, 0.1)\ndata "

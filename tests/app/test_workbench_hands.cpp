@@ -1,5 +1,5 @@
-// Nothing that hands do on the workbench's page is lost: quick clicks, typing between them, others at the same script.
-// Oracle: the script on disk, which must hold all that was done.
+// The workbench page loses no action of the user: quick clicks, typing between them, other clients of the same script.
+// Oracle: the script on disk, which must contain every action.
 #include <gmock/gmock.h>
 
 #include "support/program.h"
@@ -174,7 +174,7 @@ TEST_F(workbench_hands, typing_and_the_edits_of_others_are_put_together) {
         "await order(session.revision, 1, 0, '-- theirs');");
     EXPECT_TRUE(file_contains({"-- theirs\n", "-- typed\n"})) << script();
     EXPECT_TRUE(script_has(browser, "-- theirs")) << "and in the editor";
-    write("plant_session.lua", "-- a program\n" + script());  // somebody's own editor
+    write("plant_session.lua", "-- a program\n" + script());  // another editor writes
     evaluate("atEnd('-- more\\n');");
     EXPECT_TRUE(file_contains({"-- a program\n", "-- theirs\n", "-- typed\n", "-- more\n"})) << script();
 }
@@ -205,7 +205,7 @@ TEST_F(workbench_hands, what_is_typed_before_the_page_is_left_is_there) {
 }
 
 TEST_F(workbench_hands, ten_tabs_are_heard_and_each_hears) {
-    Browser whole(1280, 900, Browser::Kind::kWhole);  // which tells a tab that it is hidden
+    Browser whole(1280, 900, Browser::Kind::kWhole);  // reports to a tab that it is hidden
     const std::string address = program->next_address();
     for (int i = 0; i < 10; ++i) {
         if (i > 0) whole.new_tab();
@@ -262,7 +262,7 @@ TEST_F(workbench_hands, a_step_over_two_lines_that_is_switched_off_is_one_remark
     EXPECT_TRUE(file_contains({"= data\nprepared = idfilt(prepared, {0, 12})\n"})) << script();
 }
 
-// A study whose runs grow behind a hand.
+// The runs of a study increase during changes.
 
 TEST_F(workbench_hands, a_study_comes_to_all_its_runs_however_often_it_is_altered_or_to_those_that_are_said) {
     evaluate("document.querySelectorAll('#steps details').forEach((one) => { one.open = true; });");
@@ -280,7 +280,7 @@ TEST_F(workbench_hands, a_study_comes_to_all_its_runs_however_often_it_is_altere
     EXPECT_TRUE(file_contains({"sigma = 0.4", "runs = 60"})) << script();
 }
 
-// A hand that the system takes away.
+// The system takes the pointer away during a drag.
 
 TEST_F(workbench_hands, a_part_stays_where_it_was_when_the_system_takes_the_pointer) {
     const std::string hand =

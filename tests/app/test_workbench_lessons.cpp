@@ -43,7 +43,7 @@ class workbench_lessons : public workbench_page {
                                                                    ",\"height\":" + std::to_string(height) +
                                                                    ",\"deviceScaleFactor\":1.5,\"mobile\":false}");
     }
-    /// The smallest type that is to be seen, in mm, where the page is 160 mm wide.
+    /// The smallest visible type, in mm, where the page is 160 mm wide.
     double smallest_type(Browser& browser) const {
         return std::stod(browser.evaluate(
             "const seen = [...document.querySelectorAll('body *')].filter((one) => {"

@@ -32,7 +32,7 @@ class workbench_page_parts : public workbench_page {
     std::string script() const { return text_of("plant_session.lua"); }
 };
 
-// What hands reach.
+// The controls that a user can reach.
 
 TEST_F(workbench_page_parts, the_bar_stays_however_long_the_script_is) {
     Browser browser(1366, 650);
@@ -234,7 +234,7 @@ TEST_F(workbench_page_parts, a_cell_of_the_map_becomes_the_model_whose_controls_
     const auto program = open(browser);
     press_all(browser, {"New model", "Search orders"});
     ASSERT_TRUE(browser.becomes_true("document.querySelectorAll('button.order').length >= 9"));
-    browser.evaluate("document.querySelector('.models td button').click()");  // G1 was chosen by hand
+    browser.evaluate("document.querySelector('.models td button').click()");  // a click chose G1
     browser.evaluate("document.querySelectorAll('button.order')[4].click()");
     ASSERT_TRUE(script_has(browser, "G2 = tfsrivc"));
     EXPECT_TRUE(browser.becomes_true("document.querySelector('.chosen h3').textContent === 'G2'"));

@@ -39,7 +39,8 @@ class workbench_reports : public workbench_page {
     const Workbench shell;
 };
 
-/// The crane from its raw record by clicks: position (an integrator) and angle together, judged on another experiment.
+/// The crane, identified from raw data by clicks: position (an integrator) and angle together, validated on another
+/// experiment.
 TEST_F(workbench_reports, the_crane_is_identified_by_clicks_with_both_outputs_and_reported) {
     const auto program = app("03_crane");
     Browser browser;
@@ -72,7 +73,7 @@ TEST_F(workbench_reports, the_crane_is_identified_by_clicks_with_both_outputs_an
                                      HasSubstr("theta (rad)"), Not(HasSubstr("??"))));
 }
 
-/// What the workbench wrote into the script is told in the script's language; what somebody changed in it is theirs.
+/// The text that the workbench wrote follows the language of the script. Text that the user changed stays as it is.
 TEST_F(workbench_reports, the_language_turns_what_the_workbench_has_written_and_says) {
     write_record();
     const auto program = app("plant.csv");
@@ -119,7 +120,7 @@ TEST_F(workbench_reports, the_language_turns_what_the_workbench_has_written_and_
                              "one.textContent.includes('each optionally with D, I and Z'))"));
 }
 
-/// What a run tells is in its script's language: a page in another would be half and half.
+/// The messages of a run are in the language of its script. A page in another language would mix both.
 TEST_F(workbench_reports, a_new_session_is_in_the_language_of_the_browser_and_another_in_its_own) {
     write_record();
     const auto program = app("plant.csv");
@@ -182,7 +183,7 @@ TEST_F(workbench_reports, a_session_goes_through_run_report_check_and_pack_as_it
     EXPECT_TRUE(std::filesystem::exists(file("plant_session.zip")));
 }
 
-/// What is easily taken for something else is told where it happens.
+/// The page explains commonly confused results where they appear.
 TEST_F(workbench_reports, traps_are_shown_and_not_forbidden) {
     write("traps.lua",
           "-- %% id=record\nu = prbs(7, 8)\ny = lsim(tf({2}, {1, 4, 3}, {IODelay = 0.3}), u, 0.05)\n"

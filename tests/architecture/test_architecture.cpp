@@ -1,5 +1,5 @@
-// The rules of the house that a machine can check. Oracle: engine/CMakeLists.txt (the layers and their links), the
-// catalog of methods and the list of Lua functions.
+// The project's rules that a machine can check. Oracle: engine/CMakeLists.txt (the layers and their links), the catalog
+// of methods and the list of Lua functions.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -224,7 +224,7 @@ TEST(architecture, headers_that_depend_on_the_processor_are_for_numerics_alone) 
     EXPECT_THAT(offences, IsEmpty());
 }
 
-// Two definitions of one function in one namespace: the linker takes either, and tells nobody.
+// The linker accepts either of two definitions of one function in one namespace without a message.
 TEST(architecture, a_function_is_declared_in_one_header) {
     std::map<std::string, fs::path> headers;
     std::vector<std::string> offences;
@@ -241,8 +241,8 @@ TEST(architecture, a_function_is_declared_in_one_header) {
     EXPECT_THAT(offences, IsEmpty());
 }
 
-// The linker takes either of two definitions of one name, and tells nobody: types are compared in the headers, symbols
-// in the libraries. Strong symbols only; templates and inline functions stand in many objects on purpose.
+// The linker accepts either of two definitions of one name without a message. The test compares types in the headers
+// and strong symbols in the libraries. Templates and inline functions are in many objects on purpose.
 TEST(architecture, a_type_has_its_name_for_itself) {
     std::map<std::string, fs::path> headers;
     std::vector<std::string> offences;
@@ -357,8 +357,7 @@ TEST(architecture, every_module_of_the_core_has_its_own_test) {
     EXPECT_THAT(untested, IsEmpty());
 }
 
-/// The declarations of functions outside classes in a header that no comment of theirs or of the block they stand in
-/// explains.
+/// The functions that a header declares outside classes without a comment for the function or its block.
 std::vector<std::string> undocumented_functions(const std::string& header) {
     std::vector<std::string> found;
     std::istringstream lines(header);
@@ -435,7 +434,7 @@ std::set<std::string> option_words_of_lua() {
     return words;
 }
 
-/// Whether it stands there by itself, not as a part of a longer name.
+/// Whether `text` contains `word` as a complete word, not as a part of a longer name.
 bool says_word(const std::string& text, const std::string& word) {
     const auto goes_on = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
     for (std::size_t at = 0; (at = text.find(word, at)) != text.npos; at += word.size()) {
@@ -501,8 +500,8 @@ std::string optimization_in(const std::string& command) {
     return levels.empty() ? "" : levels.back();
 }
 
-// GCC optimizes a source as it did the precompiled headers that the source reads. Another level in the source's own
-// options would change nothing, and nobody would notice.
+// GCC optimizes a source file at the level of the precompiled headers that it reads. Another level in the options of
+// the source file would silently change nothing.
 TEST(architecture, sources_have_the_optimization_level_of_their_precompiled_headers) {
     const nlohmann::json commands = nlohmann::json::parse(text_of(DYNLAB_COMPILE_COMMANDS));
     std::map<std::string, std::string> levels;  // of precompiled headers
@@ -525,8 +524,8 @@ TEST(architecture, sources_have_the_optimization_level_of_their_precompiled_head
     EXPECT_THAT(offences, IsEmpty());
 }
 
-// What the optimizer warns of differs from processor to processor: an array without values, copied, was an error where
-// there are no instructions of AVX-512, and nobody could build dynlab there.
+// The warnings of the optimizer differ between processors. A copied array without values was an error on processors
+// without AVX-512, where dynlab could not be built.
 TEST(architecture, warnings_that_depend_on_the_processor_stop_no_build) {
     const auto compiles = [](const std::string& source) {
         const std::string command =

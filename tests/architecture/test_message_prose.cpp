@@ -1,4 +1,4 @@
-// The language of messages (errors, warnings, findings, words of pages) and of the help of commands: the words of the
+// The language of messages (errors, warnings, issues, words of pages) and of the help of commands: the words of the
 // glossary, no dialect, short sentences. Oracle: the lists here and in support/prose.h.
 #include <gtest/gtest.h>
 
@@ -53,7 +53,7 @@ bool is_exception(const std::string& phrase, const std::string& text) {
         kExceptions, [&](const Exception& one) { return one.phrase == phrase && text.find(one.text) != text.npos; });
 }
 
-/// What \n, \" and the like in a quoted text stand for.
+/// The text with \n, \" and similar escapes replaced by the characters that they represent.
 std::string unescaped(std::string_view text) {
     std::string plain;
     for (std::size_t i = 0; i < text.size(); ++i) {

@@ -1,6 +1,6 @@
-// The language of texts that stand in files: README, guides, pages for contributors, lessons, templates. The words of
-// the glossary, short sentences, American spelling. Oracles: the lists in support/prose.h, hunspell, and
-// long_sentences.txt, which has the number of long sentences of each page: a page may not get more.
+// The language of text files: README, guides, contributor pages, lessons, templates. Glossary words, short sentences,
+// American spelling. Oracles: the lists in support/prose.h, hunspell, and long_sentences.txt, which limits the number
+// of long sentences of each page.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -16,7 +16,7 @@ constexpr int kRecords = 30;
 
 using Judge = bool (*)(const Advice&, const test::CorpusKind&);
 
-/// Adds the row: in how many records of a kind the findings are not as they should be. Such records are printed.
+/// Adds the row: the number of data sets of a kind with wrong issues. Prints these data sets.
 void count_wrong(const char* what, const test::CorpusKind& kind, Judge right, double bar, Report& report) {
     std::atomic<int> wrong = 0;
     tbb::parallel_for(0, kRecords, [&](int i) {
@@ -35,7 +35,7 @@ void count_wrong(const char* what, const test::CorpusKind& kind, Judge right, do
 
 }  // namespace
 
-/// How many clean records are warned of, and how many planted faults are not found.
+/// The number of clean data sets with a warning, and the number of planted faults that are not found.
 void measure_advice(Report& report) {
     for (const test::CorpusKind& kind : test::clean_kinds())
         count_wrong(

@@ -13,7 +13,7 @@ using test::Workbench;
 constexpr int kClass = 300, kRepetitions = 3, kProcesses = 2;
 constexpr double kMostAgainstThreads = 1.25, kMostAgainstOneCore = 1 / 1.8;
 
-// Lesson 4's own experiment: its system, its record of 0.2 of noise, its two estimators.
+// The experiment of lesson 4: its system, its data with noise of 0.2, its two estimators.
 constexpr const char* kRecords =
     "print(montecarlo{system = tf({2}, {1, 4, 3}), input = prbs(4, 100), Ts = 0.01, sigma = 0.2, runs = 100000, seed = "
     "3,\n    estimators = {lssvf = {{2, 1, 0}, 3}, ivsvf = {{2, 1, 0}, 3}}})\n";

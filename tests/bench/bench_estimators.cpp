@@ -28,7 +28,7 @@ constexpr double kSamplingTime = 0.01, kCutoff = 3, kNoise = 0.2;
 constexpr Index kShort = 1500, kLong = 1'000'000, kVeryLong = 10'000'000;
 constexpr int kRuns = 200;
 
-/// A record of 2/(s^2 + 4s + 3): its response x to a binary sequence that does not repeat, and y = x + noise.
+/// Data of 2/(s^2 + 4s + 3): its response x to a binary sequence that does not repeat, and y = x + noise.
 struct Record {
     explicit Record(Index samples)
         : u(samples == kShort ? prbs(4, 100).head(samples) : prbs(17, 100).head(samples)),
@@ -142,7 +142,7 @@ void measure_monte_carlo(const Record& record, Report& report) {
     report.results.push_back({what + ", two threads", "one thread (s)", two, one, 1 / 1.7, 0});
 }
 
-/// Against ten different records: one alone would stay in the cache, which is another speed, not another growth.
+/// Uses ten different data sets. A single one would stay in the processor cache, whose speed would look like growth.
 void measure_growth(const std::string& what, Method method, const Record& ten_million, Report& report) {
     const auto estimate = [&](const IdData& data) { on_one_core([&] { return method(data); }); };
     std::vector<IdData> pieces;

@@ -50,7 +50,7 @@ double seconds_of(const Workbench& bench, const std::vector<std::string>& words)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Of grading the class in `folder` again with a check of one's own changed, when its scripts need no run.
+/// Seconds to regrade the class in `folder` after a change to a custom check, when the scripts need no run.
 double regrading_seconds(const Workbench& bench, const std::string& folder) {
     const auto grade = [&](const std::string& points, const char* again) {
         bench.write("own/own.lua", "check{id = 'gain', points = " + points +
@@ -76,9 +76,9 @@ double regrading_seconds(const Workbench& bench, const std::string& folder) {
 
 }  // namespace
 
-/// The time that a submission costs beyond its script's own runs, and a feedback PDF. What a class costs however small
-/// it is, such as the trial of the worked solution and the layout of documents, is measured with one submission and
-/// taken off.
+/// The time that a submission costs beyond the runs of its script, and a feedback PDF. One submission measures the
+/// fixed cost of a class, such as the trial of the reference solution and the layout of documents. The fixed cost is
+/// subtracted.
 void measure_grading(Report& report) {
     const Workbench bench;
     add_submissions(bench, 1, 1);

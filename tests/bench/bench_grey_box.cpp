@@ -17,7 +17,7 @@ Vector twice(const Vector& u) {
 
 }  // namespace
 
-/// The crane's estimation record, 4 states, 7 parameters, against scipy's least_squares and solve_ivp.
+/// The crane's estimation data, 4 states, 7 parameters, against scipy's least_squares and solve_ivp.
 void measure_grey_box(Report& report) {
     const CraneRecord crane = simulate_crane({}, {}, 1).front();
     Matrix y(crane.u.size(), 2);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kSamplingTime = 0.05, kDelay = 0.37, kNoise = 0.02;
 constexpr Index kSteady = 20;  // samples of a level of the held input
-constexpr double kBar = 5;     // times the regular record's time
+constexpr double kBar = 5;     // times the time for regular data
 
 /// 2/(s^2 + 4s + 3) e^(-0.37 s) with noise, at these instants.
 IdData record_at(const Vector& t, const Vector& u, bool regular) {

@@ -62,7 +62,7 @@ double edit_seconds(Browser& browser, const std::string& expression, const std::
     return seconds;
 }
 
-/// From starting the program on a document whose calls are all remembered until the page is whole.
+/// Seconds from the start of the program until the page is complete, for a document whose calls are all cached.
 double opening_seconds(Browser& browser, const fs::path& file, const fs::path& cache) {
     const double started = now();
     const Preview preview(file, true, {}, cache);
@@ -142,7 +142,7 @@ void measure_live(Report& report) {
         const Preview preview(file, true, {}, bench.path("cache"));
         browser.open(preview.address());
         if (!browser.becomes_true(kComplete, 60)) throw std::runtime_error("lesson 4 is never complete");
-        std::this_thread::sleep_for(std::chrono::seconds(3));  // in which the page is remembered
+        std::this_thread::sleep_for(std::chrono::seconds(3));  // the page is cached meanwhile
     }
     browser.devtools("Page.addScriptToEvaluateOnNewDocument", "{\"source\": \"" + watch(kComplete) + "\"}");
     std::vector<double> openings, paints;

@@ -9,8 +9,8 @@
 namespace dynlab::bench {
 namespace {
 
-/// Records of N samples, made by the session itself: of two poles (d), three poles (d3), two poles behind a delay that
-/// is no whole number of samples (dd), and two poles with colored noise (dc).
+/// Data sets of N samples that the session simulates: two poles (d), three poles (d3), two poles with a delay that is
+/// not a whole number of samples (dd), and two poles with colored noise (dc).
 constexpr char kRecords[] = R"(
 N, Ts = 999000, 0.01
 s = tf("s")

@@ -1,5 +1,5 @@
-// The workbench, as a user at the browser meets it: from starting the program to the frame that Chromium has painted,
-// and what a hand that drags gets to see.
+// The workbench as a user at the browser sees it: from the start of the program to the frame that Chromium has painted,
+// and the frames during a drag.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -22,7 +22,7 @@ using test::PageProgram;
 constexpr int kOpenings = 5;
 constexpr int kMillion = 1'000'000;
 constexpr double kFrame = 1.0 / 30;  ///< s
-/// SRIVC on 1500 samples; the page shows record, simulated output, residuals, step and Bode beside it.
+/// SRIVC on 1500 samples. The page shows the data, simulated output, residuals, step response and Bode plot beside it.
 const std::string kDragged =
     "-- %% id=record\nlocal u = prbs(8, 6)\nlocal y = lsim(tf({2}, {1, 4, 3}), u, 0.05)\n"
     "data = iddata(y:range(1, 1500) + 0.05*randn(1500), u:range(1, 1500), 0.05)\n\n"
@@ -67,7 +67,7 @@ double memory(const PageProgram& program) {
     return kilobytes / 1000;
 }
 
-/// A browser that runs what is to be counted for five seconds and gives drawings a second.
+/// Runs `moving` in a browser for five seconds and returns the drawings per second.
 double drawings(Browser& browser, const std::string& view, const std::string& setting_up, const std::string& moving) {
     return std::stod(browser.evaluate("return (async () => { const box = document.querySelector('.tile[data-view=" +
                                       view + "] .plot'); let k = 0, drawn = 0; " + setting_up +

@@ -9,8 +9,8 @@
 
 namespace dynlab::bench {
 
-/// A Lua state as `dynlab run` makes it, in which a user's lines are run one after the other. What they save, and what
-/// is kept of long calls, lies in a folder that goes with the object.
+/// A Lua state as `dynlab run` makes it, which runs a user's lines in sequence. Saved files and cached long calls are
+/// in a folder that the destructor removes.
 class LuaSession {
   public:
     LuaSession();

@@ -25,7 +25,8 @@ ChildResult run_on_one_core(std::vector<std::string> command, const std::string&
     return run_child(options, package);
 }
 
-/// The Python that has numpy and scipy: Debian's own, which installs them, may stand behind another one in PATH.
+/// The Python that has numpy and scipy. Debian installs them for its own Python, which may come after another one in
+/// PATH.
 std::optional<std::string> find_python() {
     for (const char* python : {"/usr/bin/python3", "python3"}) {
         if (!find_program(python)) continue;

@@ -16,7 +16,7 @@ enum class Peer { kNumpy, kOctave };
 std::string name_of(Peer peer);
 bool installed(Peer peer);  ///< with the libraries the peer needs
 
-/// A record as the peers read it: a file of N inputs and N outputs, gone with the object.
+/// A data set as the peers read it: a file of N inputs and N outputs. The destructor removes the file.
 class PeerRecord {
   public:
     PeerRecord(const VectorView& u, const VectorView& y);
@@ -44,8 +44,8 @@ struct Comparison {
     int calls = 1;            ///< that `work` makes; the row is of one
 };
 
-/// Adds the row: `work`, what dynlab does in place of the peer's job, repeated before the peer runs and again after it.
-/// It returns its estimate; std::runtime_error when that is not the peer's. Without the peer the row is left out.
+/// Adds the row that compares `work` with the peer's job. `work` runs before the peer and again after it, and returns
+/// its estimate. Without the peer, no row is added. Throws std::runtime_error if the two estimates differ.
 void compare_with_peer(const Comparison& comparison, const PeerRecord& record, const std::function<Vector()>& work,
                        Report& report);
 

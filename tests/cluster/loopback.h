@@ -46,8 +46,8 @@ inline std::string lacking_program(const std::vector<std::string>& programs) {
     return "";
 }
 
-/// Two hosts, n1 and n2, which are this machine behind an sshd of its own on a high port, with a key of its own; and
-/// `closed`, where nobody listens.
+/// Two hosts, n1 and n2: this machine behind a separate sshd on a high port, with a separate key. On the host `closed`,
+/// no server listens.
 class LoopbackHosts {
   public:
     LoopbackHosts() : reason_(lacking_program({"/usr/sbin/sshd", "ssh", "ssh-keygen", "parallel"})) {
@@ -74,7 +74,7 @@ class LoopbackHosts {
         if (!answers()) reason_ = "sshd does not answer: " + shell_output("cat " + place + "/log");
     }
     const std::string& reason_to_skip() const { return reason_; }
-    /// For a shell, before a command. GNU parallel keeps notes in a home of its own.
+    /// Environment variables for a shell command. GNU parallel keeps its notes in a separate home folder.
     std::string environment() const {
         return fmt::format("PARALLEL_SSH='ssh -F {0}/ssh' PARALLEL_HOME={0}/parallel", folder_.path().string());
     }

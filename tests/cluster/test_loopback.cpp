@@ -28,7 +28,7 @@ print(montecarlo{system = tf({2}, {1, 4, 3 + M.lssvf.mean[1]}), input = prbs(4, 
 )";
 constexpr int kClass = 24, kQuick = 50'000, kSlow = 4'000'000;  // turns of a submission's loop
 
-/// Slurm and sshd have ports of their own: one test at a time (entries.cmake).
+/// Slurm and sshd use fixed ports, so that only one test runs at a time (entries.cmake).
 class loopback : public testing::Test {
   protected:
     loopback() : bench_(kAttackAnswers, kAttackChecks, kAttackSolution) {}

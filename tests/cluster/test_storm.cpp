@@ -50,7 +50,7 @@ class gust : public testing::Test {
         wait_for_end();
         ASSERT_EQ(code(), 0) << work().read("said.txt");
     }
-    /// 0 and 1 are ends of its own.
+    /// The exit code of the command, or -1 if there is none yet. Regular exits have the codes 0 and 1.
     int code() { return fs::exists(work().path("code")) ? std::atoi(work().read("code").c_str()) : -1; }
 
     /// `scheduler` gives the scheduler's own processes, `restart` starts them again, `busy` says whether it has work.
@@ -82,7 +82,7 @@ class gust : public testing::Test {
             restart();
         }
         while (busy()) std::this_thread::sleep_for(std::chrono::milliseconds(200));
-        // What a bomb is told, that its memory or its time is over, depends on what else the machine does.
+        // The message for a bomb, about its memory or its time, depends on the load of the machine and is not compared.
         EXPECT_EQ(work().read("alone/gradebook.csv"), work().read("shared/gradebook.csv"));
         EXPECT_EQ(work().shell("ls alone/results | wc -l").output, work().shell("ls shared/results | wc -l").output);
         fmt::print("{} kills, the command was started {} times\n", kills, starts);

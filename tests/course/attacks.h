@@ -14,7 +14,7 @@ struct Attack {
     const char* reported;  ///< part of what the student or the instructor reads of it; "" where nothing need be said
 };
 
-/// Every one hands in the right answer where it can, so that a verdict of zero is the attack's own doing.
+/// Every attack submits the right answer if it can, so that the attack itself causes a score of zero.
 inline const Attack kAttacks[] = {
     {"empty_repeated", "local s = string.rep('', 1e18)\nanswer('x', 42)", 1, ""},
     {"long_text", "local s = string.rep('x', 1e12)\nanswer('x', 42)", 0, ""},

@@ -47,7 +47,7 @@ class CheckTest : public DocumentTest {
         standard_ = standard_of(file("lab.md"));
     }
 
-    /// The Markdown of a report with eight sections; `extra` stands below the heading `at`.
+    /// The Markdown of a report with eight sections. `extra` is below the heading `at`.
     static std::string english_report(const std::string& extra = "", const std::string& at = "Validation") {
         std::string text;
         for (const char* title : kTitles)

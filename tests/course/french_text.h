@@ -16,7 +16,7 @@ inline std::string in_french(const Message& message) {
     return reader.text(message);
 }
 
-/// Without what stands in quotation marks, which is the document's own.
+/// The text without quotations, whose words belong to the document.
 inline std::string without_quotations(std::string french) {
     const std::string open = "«", close = "»";
     for (std::size_t at; (at = french.find(open)) != french.npos;) {

@@ -120,7 +120,8 @@ TEST(allocation, keeps_groups_with_a_common_member_apart) {
     }
 }
 
-// oracle: a late-comer goes between two groups whose pair nobody knows of yet: all write and get as many as before
+// oracle: a late group joins between two groups whose pair is not announced yet; each group writes and gets as many
+// reviews as before
 TEST(allocation, takes_late_comers_in_without_more_work_for_others) {
     AllocationProblem problem{13, 2, std::vector<bool>(13, true), {}, {}, {}};
     problem.active[12] = false;

@@ -69,8 +69,8 @@ std::string outside_of(const Workbench& work) {
         .output;
 }
 
-/// Grades them and what else was handed in: nothing outside the boxes changes, everything ends in time, every verdict
-/// is the one that was expected. Returns the exit code.
+/// Grades the attacks and the other submissions. Nothing outside the sandboxes changes, every run ends in time, and
+/// every score is the expected one. Returns the exit code.
 int grade_attacks(GradingBench& bench, std::span<const Attack> attacks, std::size_t others, int timeout) {
     const Workbench& work = bench.bench();
     for (const Attack& attack : attacks) bench.submit_file(attack.name, attack.script);
@@ -93,13 +93,13 @@ int grade_attacks(GradingBench& bench, std::span<const Attack> attacks, std::siz
     return graded.exit_code;
 }
 
-// oracle: what stood there before, the clock, the verdicts expected
+// oracle: the earlier state outside the sandboxes, the clock, the expected scores
 TEST(attacks, without_an_end_are_ended) {
     GradingBench bench(kAttackAnswers, kAttackChecks, kAttackSolution);
     EXPECT_EQ(grade_attacks(bench, kEndlessAttacks, 0, 1), 0);
 }
 
-// oracle: what stood there before, the clock, the verdicts expected
+// oracle: the earlier state outside the sandboxes, the clock, the expected scores
 TEST(attacks, none_leaves_its_sandbox_stops_the_batch_or_changes_a_mark) {
     GradingBench bench(kAttackAnswers, kAttackChecks, kAttackSolution);
     bench.submit_file("honest", kAttackSolution);

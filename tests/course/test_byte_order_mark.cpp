@@ -24,7 +24,7 @@ TEST(byte_order_mark, costs_no_points) {
     bench.submit_file("stops", kByteOrderMark + "error('no more')\n");
     bench.submit_file("slip", kByteOrderMark + "local = 3\n");
     const ChildResult graded = bench.grade({"--checks", "more", "--roster", "roster.csv"});
-    ASSERT_EQ(graded.exit_code, 1) << graded.error_output;  // two belong to nobody in the roster
+    ASSERT_EQ(graded.exit_code, 1) << graded.error_output;  // two match no student in the roster
     EXPECT_EQ(GradingBench::score(bench.result("marked")), 2);
     EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr("marked,graded,2,2"));
     EXPECT_THAT(GradingBench::error_reason(bench.result("stops")), HasSubstr("analysis.lua:1: no more"));

@@ -123,7 +123,7 @@ TEST(check_command, a_copied_cell_and_lost_stars_are_hints) {
                 AllOf(HasSubstr("report.md:8"), HasSubstr("\"2*3*4\" is printed without its asterisks")));
 }
 
-// oracle: the same load that grade refuses, and what stands in the file
+// oracle: the same call of load that grade refuses, and the content of the file
 TEST(check_command, a_file_outside_the_folder_is_reported_with_its_line) {
     const Workbench bench;
     bench.write("roster.csv", "name\n424242\n");
@@ -235,7 +235,7 @@ TEST(check_command, a_question_with_several_blanks_is_one_finding) {
                     "The line \"Your answer:\" is still in the text."));
 }
 
-// oracle: the worked solution has all points, and percent instead of a ratio lose those of their check
+// oracle: the reference solution earns all points; percent instead of a ratio loses the points of that check
 TEST(check_command, reports_what_the_checks_of_the_lesson_say) {
     const Workbench bench;
     ASSERT_EQ(bench.dynlab({"new", "01", "mine"}).exit_code, 0);

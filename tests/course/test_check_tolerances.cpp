@@ -27,8 +27,8 @@ struct Way {
 constexpr Way kWays[] = {
     {"inside_up", true, 1}, {"inside_down", true, -1}, {"outside_up", false, 1}, {"outside_down", false, -1}};
 
-/// A copy of the lesson whose worked solution hands in each of its answers four times, moved in each way: of the
-/// answers of one run four submissions are made.
+/// A copy of the lesson whose reference solution submits each answer four times, once for each change. The answers of
+/// one run give four submissions.
 std::string solution_moved_in_all_ways(const std::string& lesson, const std::string& moves) {
     static const std::regex declared("\n--   (\\w+)(: \\w+)");
     const std::string end_of_header = "\n-- ---\n";
@@ -64,7 +64,7 @@ std::string solution_moved_in_all_ways(const std::string& lesson, const std::str
            script.substr(place + end_of_header.size());
 }
 
-/// What a script that moves its answers in one way would have handed in.
+/// The submission of a script that changes its answers in one way.
 CheckedSubmission moved_in_one(const CheckedSubmission& all, const std::string& way) {
     CheckedSubmission one = all;
     for (auto& [name, run] : one.runs) {

@@ -151,7 +151,7 @@ TEST_F(corrections, a_version_with_the_content_of_an_earlier_one_is_as_late_as_t
     EXPECT_THAT(shell("cat k/receipts/crane/00003-*"), HasSubstr("late: 18 h\n"));  // when this version came
     EXPECT_THAT(course({"verify"}).output, HasSubstr("complete and unaltered"));
     done({"withdraw", "crane", "group-01", "--version", "1", "--reason", "the group's wish"});
-    EXPECT_THAT(status(), ContainsRegex("group-01 +1 +v3 late 18 h  "));  // no other of its content stands
+    EXPECT_THAT(status(), ContainsRegex("group-01 +1 +v3 late 18 h  "));  // no other valid version has its content
     done({"restore", "crane", "group-01", "--version", "1", "--reason", "no"});
     EXPECT_THAT(status(), ContainsRegex("group-01 +1 +v3  "));
     done({"set-received", "crane", "group-01", "2026-03-01 14:00", "--version", "1", "--reason", "the platform's log"});

@@ -199,7 +199,7 @@ TEST(course_conversion, export_of_an_earlier_version_is_imported) {
     EXPECT_THAT(bench.bench().dynlab({"course", "--course", "copy", "verify"}).output, HasSubstr("complete"));
 }
 
-// oracle: nobody else may read the names in a copy of the store
+// oracle: other users must not read the names in a copy of the store
 TEST(course_conversion, old_file_is_its_owners_alone) {
     CourseBench bench(2, 1);
     const std::filesystem::path folder = bench.bench().path("k");

@@ -109,7 +109,7 @@ TEST_F(course_faults, a_kill_anywhere_in_other_commands_loses_nothing) {
     }
 }
 
-// Whether both copies went the way $1, each once, and stand in the outbox's folder $2 as the store has them.
+// Whether both anonymized copies went the way $1, once each, and are in the outbox folder $2 as stored.
 constexpr const char* kAllSent = R"sh(
 ask() { sqlite3 try/course.db "SELECT $1 FROM sendings WHERE way = '$way' $2"; }
 way=$1
@@ -118,7 +118,7 @@ find "try/outbox/crane/$2" -name '*.pdf' -exec sha256sum {} + | cut -c1-64 | sor
 ask hash 'ORDER BY hash' | cmp -s - outbox
 )sh";
 
-// oracle: the store's list of what was sent, and the hashes of what stands in the outbox
+// oracle: the store's list of sent copies, and the hashes of the files in the outbox
 TEST_F(course_faults, a_kill_anywhere_while_sending_copies_loses_none) {
     if (obstacle_to(Isolation::kFull)) GTEST_SKIP() << "no bubblewrap here";
     CourseBench::expect_done(
@@ -181,7 +181,7 @@ TEST_F(course_faults, leftovers_of_killed_runs_are_removed_and_reported) {
     EXPECT_EQ(bench_.bench().read("k/files/in_use"), "whole");
 }
 
-// oracle: the store before; nobody, root neither, can write into a folder that is mounted read-only
+// oracle: the store before; no user, not even root, can write into a folder that is mounted read-only
 TEST_F(course_faults, a_folder_that_may_not_be_written_to_is_named) {
     if (obstacle_to(Isolation::kFull)) GTEST_SKIP() << "no bubblewrap here";
     receive_all();
@@ -288,7 +288,7 @@ TEST(course_migration, of_a_fourth_version_keeps_pairs_and_pseudonyms_without_th
     EXPECT_FALSE(database.query("PRAGMA foreign_key_check").next());
 }
 
-// oracle: the first version's tables and what stood in them
+// oracle: the first version's tables and their content
 TEST(course_migration, of_a_first_version_keeps_its_students) {
     const TemporaryFolder folder;
     const std::filesystem::path file = folder.path() / "course.db";

@@ -351,7 +351,7 @@ TEST(course_labs, many_groups_with_the_same_file_are_counted) {
         AllOf(HasSubstr("the same file as group-02 and group-03 and 3 others"), Not(HasSubstr("group-04 and"))));
 }
 
-// oracle: hidden records drawn from nothing are no secret
+// oracle: hidden data sets drawn from an empty secret are not secret
 TEST(course_labs, empty_secret_is_refused_at_once) {
     CourseBench bench(2);
     bench.bench().write("empty.txt", "");

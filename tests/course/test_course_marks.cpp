@@ -299,7 +299,7 @@ TEST(course_marks, scores_come_with_the_reviews_packs) {
     EXPECT_EQ(scores_in_script("scores={data=3,steps=os.exit(),conclusions = 1e3}").size(), 1u);
     EXPECT_EQ(scores_in_script("x = {}\n  local scores\n=\n{ data = 3 }").size(), 1u);
     EXPECT_TRUE(scores_in_script("my scores = {data = 3}\nlocalscores = {data = 3}").empty());
-    // Whatever somebody hands in: nothing that takes stack for every character.
+    // The parser must not use stack space for every character of a submission.
     for (const std::string& filling :
          {std::string(900'000, '\n'), std::string(900'000, ' '), std::string(900'000, 'a')})
         EXPECT_EQ(scores_in_script(filling + "\nscores = {data = 4}").size(), 1u);

@@ -205,7 +205,7 @@ TEST(course_store, a_roster_changes_what_it_has_columns_for) {
         "s1|group-02\ns2|group-02\ns3|s3\n");
 }
 
-// oracle: nobody is in the groups that the mistaken roster made, and nothing came from them
+// oracle: the groups of the mistaken roster have no members and no submissions
 TEST(course_store, groups_of_a_mistaken_roster_do_not_count) {
     CourseBench bench(2);
     bench.submit_file("group-01.pdf", small_pdf("one"), "2026-03-01 10:00");
@@ -244,7 +244,8 @@ TEST(course_store, takes_a_platform_s_zip_and_leaves_out_what_leads_outside) {
                                           HasSubstr("named \"elsenobody\""), Not(HasSubstr("notes.txt"))));
     EXPECT_FALSE(std::filesystem::exists(bench.bench().path("escaped.pdf")));
     EXPECT_FALSE(std::filesystem::exists("/tmp/escaped.pdf"));
-    // What was not taken is kept, too: of somebody unknown, and two that lead outside, of which only the names came.
+    // Rejected files are kept, too: one of an unknown student, and two that point outside, of which only the names are
+    // kept.
     EXPECT_THAT(bench.course({"verify"}).output, HasSubstr("4 files, 6 versions: complete and unaltered"));
 }
 

@@ -41,7 +41,7 @@ TEST(custom_checks, an_answer_that_cannot_be_taken_costs_no_other) {
     EXPECT_EQ(said(bench.result("twice"), 0),
               "The answer \"x\" already has another value; specify each answer only once.");
     EXPECT_EQ(said(bench.result("name"), 0), "The answer \"x\" was not submitted.");
-    // Outside of grading the script's writer is told at once.
+    // Outside of grading, the author of the script gets the message at once.
     bench.bench().write("own.lua", GradingBench::header(kAnswers) + "answer('x', {42})\n");
     EXPECT_EQ(bench.bench().dynlab({"run", "own.lua"}).exit_code, 1);
 }
@@ -136,7 +136,7 @@ constexpr const char* kGain = "--   K: number\n";
 const std::string kComputes = "local d = load('rc')\nanswer('K', mean(d.y)/mean(d.u))\n";
 constexpr const char* kNearTwo = "check{id = 'K', test = function(a) return near(a.K, 2, {rel = 0.01}) end}\n";
 
-/// A course whose lesson has a record that no rig makes.
+/// A course whose lesson has a data set that no simulated plant produces.
 void add_record(GradingBench& bench, const std::string& record) {
     const Workbench& work = bench.bench();
     std::filesystem::remove(work.path("home/data"));
@@ -145,7 +145,7 @@ void add_record(GradingBench& bench, const std::string& record) {
     work.write("home/data/rc/rc.csv", record);
 }
 
-// oracle: the gains that the records were written with
+// oracle: the gains with which the data sets were written
 TEST(custom_checks, rerun_on_records_in_files) {
     GradingBench bench(kGain, kNearTwo, kComputes);
     add_record(bench, "u,y\n1,2\n2,4\n3,6\n");
@@ -162,7 +162,7 @@ TEST(custom_checks, rerun_on_records_in_files) {
     ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
     EXPECT_EQ(bench.result("computes").at("score"), 4);
     EXPECT_EQ(bench.result("types").at("score"), 2);
-    // Another record is another class: nothing that was made with the old one is kept.
+    // Another data set makes another class: no result of the old data is kept.
     bench.bench().write("own/rerun/rc.csv", "u,y\n1,5\n2,10\n3,15\n");
     EXPECT_THAT(bench.grade({"--checks", "own", "--again"}).output, HasSubstr("2 graded now"));
 }
@@ -210,7 +210,7 @@ TEST(custom_checks, zeros_differ_from_other_numbers_and_have_no_share) {
     EXPECT_THAT(said(bench.result("off"), 2), HasSubstr("{abs = ...}"));
 }
 
-// oracle: the law by which the rig in the file makes its records
+// oracle: the law by which the plant in the file produces its data
 TEST(custom_checks, rerun_on_records_of_a_plant_in_lua) {
     GradingBench bench(kGain, kNearTwo, kComputes);
     add_record(bench, "u,y\n1,2\n2,4\n3,6\n");
@@ -278,7 +278,7 @@ TEST(custom_checks, are_tried_on_what_is_known_to_be_right_or_wrong) {
     EXPECT_THAT(work.files(), Not(::testing::Contains("out")));
 }
 
-// oracle: what theory says of the specimen of all, which is 0
+// oracle: the theoretical gain of the common plant variant, which is number 0
 TEST(custom_checks, what_theory_says_earns_no_points_where_scripts_are_graded) {
     GradingBench bench(
         kGain, "check{id = 'K', test = function(a) return near(a.K, truth(a, 'suspension').gain, {rel = 0.01}) end}\n",

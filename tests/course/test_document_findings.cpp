@@ -1,4 +1,4 @@
-// Every finding in a document that has the defect, and none in one that has not. Oracle: how the document was made.
+// Every issue in a document that has the defect, and none in a document without it. Oracle: how the document was made.
 #include <gmock/gmock.h>
 
 #include "check_fixture.h"

@@ -122,7 +122,7 @@ TEST(feedback, of_a_submission_that_does_not_count_says_so) {
     EXPECT_THAT(feedback("Zoé Lefèvre_900001"), HasSubstr("**This submission does not count.** Of your submissions, "
                                                           "the best submission counts: Ida Rhodes (900003)."));
     EXPECT_THAT(feedback("Ida Rhodes_900003"), Not(HasSubstr("ne compte pas")));
-    // A mark by hand turns it round.
+    // A manual mark reverses the result.
     work.write("out/marks.csv",
                "who,check,points,reason\nZoé Lefèvre_900001_assignsubmission_file_,x,1.5,said it\n"
                "Ida Rhodes_900003_assignsubmission_file_,x,0,copied\n");
@@ -176,7 +176,7 @@ TEST(feedback, is_set_again_only_where_its_text_has_changed) {
     const std::string other = grade("return a.x > 41", {"--again"});
     EXPECT_NE(other, first);
     EXPECT_THAT(text(), HasSubstr("Its size – 0 of 1"));
-    // Neither one that somebody changed nor a PDF of another text stays.
+    // A file that the user changed is replaced, and a PDF of an earlier text is removed.
     work.write("out/results/a/feedback.pdf", "spoilt");
     grade("return a.x >= 42", {"--again"});
     EXPECT_THAT(text(), HasSubstr("Its size – 0 of 1"));

@@ -41,7 +41,7 @@ TEST(findings_report, rules_come_before_hints_with_place_and_remedy) {
                   "\n  language-mixed\n    page 2: A hint.\n    -> Look at it.\n");
 }
 
-/// The page of a document counts so, too (app/page/findings.js).
+/// The page of a document uses the same counts (app/page/findings.js).
 TEST(findings_report, answers_and_checks_of_the_lesson_are_counted_by_themselves) {
     CheckResult result = some_result();
     result.findings.push_back({"answer-missing", Severity::kRule, 0, "", Message("Missing."), Message("Give it.")});

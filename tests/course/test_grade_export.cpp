@@ -114,7 +114,7 @@ TEST(grade_export, comments_are_in_the_language_of_the_feedback) {
                                   "error is 5 %.\nSix times seven."));
 }
 
-// oracle: the text of the worked solution
+// oracle: the text of the reference solution
 TEST(grade_export, model_answers_go_to_everybody_where_the_instructor_wants_it) {
     const std::string worked = std::string(kSolution) +
                                "-- %% [markdown]\n-- **Question 1.** How much?\n--\n-- BEGIN SOLUTION\n"

@@ -133,7 +133,7 @@ TEST(gradebook_memory, the_terminal_lists_what_the_summary_lists) {
     EXPECT_THAT(graded.output, HasSubstr(listed.substr(0, listed.find('\n')) + " notes need attention"));
 }
 
-// oracle: the log, in which every run stands, and the checks' definition
+// oracle: the log, which lists every run, and the definition of the checks
 TEST(gradebook_memory, other_checks_need_no_other_run) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     const Workbench& work = bench.bench();
@@ -148,14 +148,14 @@ TEST(gradebook_memory, other_checks_need_no_other_run) {
     EXPECT_EQ(GradingBench::score(bench.result("loop")), 7);
     bench.grade({"--timeout", "2", "--checks", "own", "--regrade"});
     EXPECT_THAT(work.read("out/logs/loop/log.txt"), HasSubstr("run main"));
-    // What is spoilt is created again.
+    // A corrupt run file is created again.
     work.write("out/runs/loop/run.cbor", "spoilt");
     work.write("own/more.lua", kOwn);
     bench.grade({"--timeout", "2", "--checks", "own", "--again"});
     EXPECT_THAT(work.read("out/logs/loop/log.txt"), HasSubstr("run main"));
 }
 
-// oracle: what is remembered of the worked solution, which the checks do not fit once it is changed
+// oracle: the cached run of the reference solution, which no longer passes the checks after a change
 TEST(gradebook_memory, the_worked_solution_is_run_again_when_it_has_changed) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     const Workbench& work = bench.bench();
@@ -217,7 +217,7 @@ TEST(gradebook_memory, only_takes_a_name_a_group_an_id_or_a_student) {
                 HasSubstr("no submission, group or student is named \"group-4\""));
 }
 
-// oracle: the roster, and who handed in what
+// oracle: the roster, and the group that submitted each file
 TEST(gradebook_memory, unmatched_work_is_reported_and_a_list_assigns_it) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     const Workbench& work = bench.bench();
@@ -321,7 +321,7 @@ TEST(gradebook_memory, a_row_of_deadlines_may_give_only_what_differs) {
     ::tzset();
 }
 
-// oracle: of two hand-ins the better, or the one that came last
+// oracle: the better of two submissions, or the later one
 TEST(gradebook_memory, the_better_or_the_newest_submission_counts) {
     for (const auto& [keep, points] : {std::pair("best", "2"), std::pair("newest", "0")}) {
         GradingBench bench(kAnswers, kChecks, kSolution);
@@ -343,7 +343,7 @@ TEST(gradebook_memory, the_better_or_the_newest_submission_counts) {
     }
 }
 
-// oracle: two at once would do the same work twice; results are nobody's work
+// oracle: two simultaneous runs would do the same work twice; results are not submissions
 TEST(gradebook_memory, one_run_at_a_time_and_results_are_no_submissions) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     const Workbench& work = bench.bench();

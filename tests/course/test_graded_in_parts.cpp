@@ -1,4 +1,4 @@
-// A class that is graded in parts, each by a process of its own. Oracle: the files that one process makes, byte by
+// A class that is graded in parts, each by a separate process. Oracle: the files that a single process makes, byte by
 // byte.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -70,7 +70,7 @@ TEST_F(graded_in_parts, a_machine_without_isolation_refuses_its_part) {
     EXPECT_EQ(work().shell("ls shared/results 2>/dev/null").output, "");
 }
 
-// oracle: the names of the folders; GNU parallel has meanings of its own for such words
+// oracle: the names of the folders; GNU parallel gives such words a special meaning
 TEST_F(graded_in_parts, braces_in_names_reach_the_parts_as_they_are) {
     if (work().shell("parallel --version").exit_code != 0) GTEST_SKIP() << "GNU parallel is missing";
     work().shell("mv in '{#} {}' && mkdir in && mv '{#} {}'/s* in && mv in '{1}{.}'");

@@ -59,7 +59,7 @@ TEST(grading, gives_points_partial_credit_and_messages) {
     EXPECT_THAT(bench.bench().read("out/results/near/feedback.md"), HasSubstr("*Six times seven.*"));
 }
 
-// What an author tries may be recalled; of a submission everything is computed, whatever others have kept.
+// Checks that an author tries may use the cache. For a submission, everything is computed, whatever the cache contains.
 TEST(grading, reads_and_writes_no_cache) {
     const std::string solution =
         "local heat = load('heat_transfer')\n"
@@ -86,7 +86,7 @@ TEST(grading, reads_and_writes_no_cache) {
         EXPECT_EQ(std::filesystem::last_write_time(call), std::filesystem::file_time_type()) << "it was recalled";
 }
 
-// oracle: the same script in English; the words of what is printed are beside no record in a box
+// oracle: the same script in English; the sandbox contains the translations of printed text
 TEST(grading, french_scripts_print_what_they_estimate) {
     const std::string again =
         "check{id = 'again', points = 1, rerun = 'drive', test = function(a, b) return b.x == 42 end}\n";
@@ -179,7 +179,7 @@ TEST(grading, reports_what_stopped_the_worked_solution_before_what_is_missing) {
         ContainsRegex("is left ungraded, because the run of the reference solution on suspension stopped: .*; "));
 }
 
-// oracle: the rule that a broken check costs nobody points
+// oracle: the rule that a broken check costs no student points
 TEST(grading, leaves_ungraded_what_the_worked_solution_does_not_pass) {
     GradingBench bench(kAnswers, std::string(kChecks) + "check{id = 'broken', test = function(a) return a.x.y.z end}\n",
                        kSolution);
@@ -209,7 +209,7 @@ TEST(grading, checks_that_cannot_be_read_stop_before_anything_is_written) {
     }
 }
 
-// oracle: a record of another specimen, whose truth the answers must follow
+// oracle: data of another plant variant, whose true model the answers must follow
 TEST(grading, typed_in_answers_do_not_follow_other_records) {
     const char* checks =
         "check{id = 'K', rerun = 'suspension', test = function(a, b)\n"
@@ -223,7 +223,7 @@ TEST(grading, typed_in_answers_do_not_follow_other_records) {
     GradingBench bench("--   K: number\n--   r: number\n", checks, computes);
     bench.submit_file("computes", computes);
     bench.submit_file("typed", "answer('K', 10)\nanswer('r', -1)\n");
-    // A file that stands in for the official data is not read.
+    // A file that imitates the official data is not read.
     bench.submit_file("own_data", computes);
     bench.bench().write("in/own_data/suspension.csv", "t,u,y\n0,1,10\n1,1,10\n");
     const ChildResult graded = bench.grade();
@@ -233,7 +233,7 @@ TEST(grading, typed_in_answers_do_not_follow_other_records) {
     EXPECT_EQ(points(bench.result("typed")), (std::vector<double>{0, 1, 0}));
 }
 
-// oracle: the truth of the specimen that the group's seed draws
+// oracle: the true model of the plant variant that the group's seed draws
 TEST(grading, groups_are_held_against_their_own_records) {
     const char* checks =
         "check{id = 'K', test = function(a) return near(a.K, mean(load('suspension').y:range(300, 401)), {rel = 1e-9}) "
@@ -256,7 +256,7 @@ TEST(grading, groups_are_held_against_their_own_records) {
     bench.submit_file("others", "answer('K', " + fmt::format("{:.17g}", common) + ")\n");
     work.write("roster.csv", "id,group,seed\n1,group-7,7\n2,group-8,8\n3,others,\n");
     ASSERT_EQ(bench.grade({"--roster", "roster.csv"}).exit_code, 0);
-    // Of twelve, three are judged in one box: these, which come last.
+    // Of the twelve submissions, one sandbox grades these three, which come last.
     for (int i = 1; i <= 9; ++i) bench.submit_file("a" + std::to_string(i), computes);
     bench.grade({"--roster", "roster.csv", "--jobs", "1", "--regrade"});
     EXPECT_EQ(bench.result("group-7").at("score"), 1);
@@ -299,7 +299,7 @@ TEST(grading, a_row_for_each_student_lateness_and_neutral_formulas) {
     EXPECT_THAT(book, HasSubstr("006,'=1+1,'=cmd(),graded,5,"));
 }
 
-// oracle: the same class graded one by one, and in another order
+// oracle: the same class graded by a single job, and in another order
 TEST(grading, marks_depend_on_neither_threads_nor_order) {
     const auto book_with = [](const char* jobs) {
         GradingBench bench(kAnswers, kChecks, kSolution);
@@ -312,7 +312,7 @@ TEST(grading, marks_depend_on_neither_threads_nor_order) {
     EXPECT_EQ(book_with("1"), book_with("4"));
 }
 
-// oracle: what the first of all would get; state that a check keeps would tell of others
+// oracle: the score of the first submission; state that a check keeps would reveal other submissions
 TEST(grading, what_is_graded_in_one_sandbox_sees_nothing_of_the_others) {
     GradingBench bench(kAnswers,
                        "seen, others = 0, {}\n"
@@ -327,7 +327,7 @@ TEST(grading, what_is_graded_in_one_sandbox_sees_nothing_of_the_others) {
         EXPECT_EQ(points(bench.result(fmt::format("s{:02}", i))), (std::vector<double>{1, i == 4 ? 0.0 : 1.0})) << i;
 }
 
-// oracle: what each would get by itself
+// oracle: the score of each submission when it is graded alone
 TEST(grading, a_check_that_comes_to_no_end_costs_no_other) {
     GradingBench bench(kAnswers,
                        "check{id = 'x', test = function(a)\n"
@@ -342,8 +342,8 @@ TEST(grading, a_check_that_comes_to_no_end_costs_no_other) {
         EXPECT_EQ(points(bench.result(fmt::format("s{:02}", i))), (std::vector<double>{i == 4 ? 0.0 : 1.0, 1})) << i;
 }
 
-/// All that a run of grade wrote, but what differs by nature: logs, the kept run of the worked solution, which says how
-/// long it took, and the course, which has a secret key.
+/// All files that a run of grade wrote, except those that differ by nature: logs, the cached run of the reference
+/// solution, which contains its duration, and the course, which has a secret key.
 std::map<std::string, std::string> files_of(GradingBench& bench) {
     std::map<std::string, std::string> files;
     const std::filesystem::path out = bench.bench().path("out");
@@ -388,7 +388,7 @@ TEST(grading, the_same_class_gives_the_same_documents) {
     EXPECT_EQ(files, graded());
 }
 
-// oracle: the run that nobody disturbed
+// oracle: the undisturbed run
 TEST(grading, killed_at_any_moment_it_ends_with_the_same_gradebook) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     for (int i = 0; i < 10; ++i)

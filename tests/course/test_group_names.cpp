@@ -57,7 +57,7 @@ TEST(group_names, every_unique_identifier_means_its_group) {
     EXPECT_EQ(names.meant("d'arc"), "227");
 }
 
-// oracle: the roster above; nobody is guessed
+// oracle: the roster above; an unclear name is assigned to no student
 TEST(group_names, ambiguous_and_unknown_names_are_refused) {
     const ClassOfNames names;
     EXPECT_THAT(names.meant("Wei Li"), HasSubstr("matches several groups"));
@@ -70,7 +70,7 @@ TEST(group_names, ambiguous_and_unknown_names_are_refused) {
     EXPECT_THROW(student_named(course, "Wei Li"), InvalidArgument);
 }
 
-// oracle: finding of a term: Moodle's "Groupe 01" and the roster's group-01 became two groups
+// oracle: issue found in a term: Moodle's "Groupe 01" and the roster's group-01 became two groups
 TEST(group_names, another_spelling_in_a_later_roster_is_the_known_group) {
     ClassOfNames names;
     names.read("id,group\n221,Groupe 8\n222,GROUP_08\n12,\n");
@@ -110,7 +110,7 @@ TEST(group_names, membership_is_the_one_at_the_time) {
     EXPECT_THAT(members_at(course, eight, 3000), ElementsAre("221", "222", "224"));
 }
 
-// oracle: finding of a term: Ravi moved from group-01 to group-02 after both had submitted
+// oracle: issue found in a term: Ravi moved from group-01 to group-02 after both had submitted
 TEST(group_names, work_belongs_to_the_members_when_it_was_submitted) {
     CourseBench bench(3);
     const auto take = [&](int group, const std::string& at) {

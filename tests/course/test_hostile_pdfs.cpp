@@ -28,7 +28,7 @@ class hostile_pdfs : public CheckTest {
         return read(file("own.pdf"));
     }
 
-    /// A PDF of empty pages; the last page object stands for all of them.
+    /// A PDF of empty pages. Every entry of the page list is the last page object.
     static std::string blank_pages(int count) {
         std::string kids;
         for (int i = 0; i < count; ++i) kids += "3 0 R ";
@@ -46,7 +46,7 @@ TEST_F(hostile_pdfs, no_pdf_at_all) {
     EXPECT_THROW(check(file("none.pdf")), PdfRefusal);
     EXPECT_THROW(check(folder_.path()), PdfRefusal);
     ASSERT_EQ(::mkfifo(file("pipe.pdf").c_str(), 0600), 0);
-    EXPECT_THROW(check(file("pipe.pdf")), PdfRefusal);  // and does not wait for somebody to write into it
+    EXPECT_THROW(check(file("pipe.pdf")), PdfRefusal);  // without waiting for a writer
 }
 
 TEST_F(hostile_pdfs, cut_off_at_any_place) {

@@ -25,7 +25,7 @@ std::string guide(const std::string& name) {
     return read_file(DYNLAB_SOURCE_DIR "/engine/scripting/reference/guides/guide-" + name + ".md");
 }
 
-/// What stands between fences, in order.
+/// The contents of the fenced code blocks, in order.
 std::vector<std::string> blocks_in(const std::string& text) {
     static const std::regex fenced("\n```(?:sh)?\n([^`]*)\n```\n");
     std::vector<std::string> blocks;

@@ -12,7 +12,7 @@ using testing::IsEmpty;
 
 class leaks : public LeakCorpus {
   protected:
-    /// Each text is a page of one document, and names somebody there.
+    /// Expects that the check finds a name in each text. Each text is on a separate page of one document.
     void expect_in_text(const std::vector<std::string>& texts, const std::string& preamble = "") {
         std::string body;
         std::vector<std::string> expected;

@@ -16,7 +16,7 @@ std::size_t scripts_named(const std::string& beginning, const std::string& lesso
     return scripts;
 }
 
-/// The answers of a script as a run writes them; long calls are recalled where another test made them.
+/// The answers of a script as a run writes them. Long calls come from the cache if another test made them.
 nlohmann::json answers_of(const Workbench& bench, const std::filesystem::path& script) {
     const ChildResult run = bench.dynlab({"run", script.string(), "--out", "made"});
     EXPECT_EQ(run.exit_code, 0) << run.error_output;
@@ -25,8 +25,8 @@ nlohmann::json answers_of(const Workbench& bench, const std::filesystem::path& s
 
 class lesson_checks : public ::testing::TestWithParam<std::string> {};
 
-// oracle: the worked solution, the untouched starter, scripts that say themselves which mistake they make, and one that
-// comes to right results by other methods; that the command finds faults is seen in test_own_course.cpp
+// oracle: the reference solution, the untouched starter, scripts that state their mistake, and a script that gets right
+// results by other methods. test_own_course.cpp tests that the command finds faults.
 TEST_P(lesson_checks, give_full_marks_none_and_the_intended_message) {
     const std::string lesson = GetParam();
     EXPECT_GE(scripts_named("wrong_", lesson), 3u);

@@ -1,5 +1,5 @@
-// What groups that write in French read of their work. Oracles: sentences written here by hand; those that the lessons'
-// checks hold; the words of English that no French sentence has.
+// The texts that French groups read about their work. Oracles: sentences written here by hand; the sentences in the
+// lessons' checks; the English words that no French sentence contains.
 #include "course/issues/lesson_reader.h"
 
 #include <gmock/gmock.h>
@@ -26,7 +26,7 @@ using testing::HasSubstr;
 using testing::Not;
 namespace fs = std::filesystem;
 
-/// The texts that a checks.lua tells to students.
+/// The texts of a checks.lua that students read.
 std::set<std::string> told_by(const std::string& checks) {
     std::set<std::string> reported;
     const std::regex text(R"re((?:\b(?:say|hint|about|message)\s*=\s*|judge\()"((?:[^"\\]|\\.)*)")re");
@@ -82,7 +82,7 @@ TEST_F(lesson_reader, names_file_and_line_of_a_catalog_that_cannot_be_read) {
     }
 }
 
-/// A folder of French work, its findings read in French; their ids.
+/// Expects French texts for a folder of French work. Returns the ids of its issues.
 std::set<std::string> ids_told(const Workbench& bench, const FolderLimits& limits = {}, bool lesson_checks = false) {
     CheckOptions check_options;
     check_options.lesson_checks = lesson_checks;

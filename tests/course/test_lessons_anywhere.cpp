@@ -8,7 +8,7 @@ namespace test_lessons_anywhere {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// A lesson of one's own with its record, in a folder `mine/08_rc`.
+/// A user-written lesson with its data set, in the folder `mine/08_rc`.
 class lessons_anywhere : public ::testing::Test {
   protected:
     lessons_anywhere() {
@@ -30,7 +30,7 @@ class lessons_anywhere : public ::testing::Test {
     Workbench bench_;
 };
 
-// oracle: the record that lies beside the lesson
+// oracle: the data set beside the lesson
 TEST_F(lessons_anywhere, are_used_by_the_path_of_their_folder) {
     const std::string lesson = "mine/08_rc";
     EXPECT_EQ(bench_.dynlab({"report", lesson, "-o", "lesson.md"}).exit_code, 0);
@@ -100,7 +100,7 @@ TEST_F(lessons_anywhere, bring_their_checks_to_students_in_the_bundle) {
     EXPECT_THAT(bench_.dynlab({"check", "home/08_rc"}).output, HasSubstr("checks of lesson 08_rc: 5 of 5 points"));
 }
 
-// oracle: the record that dynlab new writes for the same seed
+// oracle: the data set that dynlab new writes for the same seed
 TEST(bundles, hold_the_records_of_a_group) {
     const Workbench bench;
     bench.write("roster.csv", "id,group,seed\n1,g-7,7\n2,g-7,7\n3,g-8,8\n4,without,\n");

@@ -87,7 +87,7 @@ TEST(manual_marks, are_given_by_any_unique_identifier) {
     }
 }
 
-// oracle: no mark is given to anybody who may not be meant
+// oracle: no student gets a mark that may belong to another one
 TEST(manual_marks, of_doubtful_rows_are_complained_of_with_their_line) {
     const MarkedClass marked;
     marked.write("group-02,x,2,\nWei Li,x,3,\ngroup-7,x,1,\n221,z,1,\ngroup-01,y,7,\n");
@@ -118,7 +118,7 @@ TEST(manual_marks, of_the_whole_submission_replace_those_of_the_checks) {
     EXPECT_THAT(marked.complaints(), HasSubstr("gets 11 points for the check \"*\", but the maximum is 10"));
 }
 
-// oracle: finding of a term: 28 marks that were typed in were wiped by the next run
+// oracle: issue found in a term: the next run deleted 28 marks that the instructor had typed in
 TEST(manual_marks, a_filled_row_is_never_lost) {
     const MarkedClass marked;
     const MarksFile::Row open{0, "02-final", "x", {}, ""};
@@ -126,7 +126,7 @@ TEST(manual_marks, a_filled_row_is_never_lost) {
     EXPECT_EQ(read_file(marked.out() / kMarksFile),
               "who,check,points,reason,of,about,rubric\r\n02-final,x,,,4,Question 3,two reasons\r\n"
               "weili-224,x,,,,,\r\n");
-    // The instructor fills it in, with columns of their own, semicolons and a decimal comma.
+    // The instructor completes the file, with additional columns, semicolons and a decimal comma.
     write_file_atomically(marked.out() / kMarksFile,
                           "note;who;check;points;reason\nmine;02-final;x;2,5;good\n;group-01;y;5;\n;;;;\n");
     const std::string before = read_file(marked.out() / kMarksFile);

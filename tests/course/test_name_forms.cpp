@@ -209,7 +209,7 @@ TEST(name_forms, bibliographies_of_the_lessons) {
     EXPECT_TRUE(has("vandenhof", "paul") || has("hof", "paul"));
 }
 
-// Oracle: nobody of the course is meant.
+// Oracle: no student of the course is meant.
 TEST(name_forms, what_only_looks_like_them) {
     const IdentityMatcher names = course();
     for (const char* text : {"0x20214711",

@@ -1,5 +1,5 @@
-// Notebooks that are handed in go the way of scripts. Oracle: the same work handed in as a script, and the names that
-// must not go on.
+// Submitted notebooks are processed as scripts are. Oracles: the same work submitted as a script, and the names that
+// must not be passed on.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,6 +1,5 @@
-// Lessons of an instructor's own. Oracles: a lesson that is changed by hand in one place, so that one knows what is
-// wrong with it and where; the installed course, which must stay as it is; the record of the skeleton, a spring of 2.5
-// N/mm.
+// Lessons by an instructor. Oracles: a lesson with one manual change, so that the error and its place are known; the
+// installed course, which must not change; the data of the skeleton, a spring of 2.5 N/mm.
 #include <gmock/gmock.h>
 
 #include "course/grading_bench.h"
@@ -101,7 +100,7 @@ TEST_F(own_course, brings_data_and_templates_that_come_before_the_installed_ones
     }
 }
 
-/// One change of a file of the skeleton, and what is told of it.
+/// One change to a file of the skeleton, and the expected message.
 struct Planted {
     const char *file, *from, *to, *reported;
 };

@@ -20,7 +20,7 @@ struct GroupsOfLesson {
 class own_records : public ::testing::TestWithParam<GroupsOfLesson> {};
 class own_records_of_many : public ::testing::TestWithParam<GroupsOfLesson> {};
 
-/// A copy of the lesson whose checks want no runs on other records.
+/// A copy of the lesson whose checks request no runs on other data.
 Lesson with_own_records_alone(const Workbench& bench, const std::string& lesson) {
     static const std::regex expected(R"(rerun = "(?!seed")\w+",)");
     const std::filesystem::path folder = bench.path("alone") / lesson;
@@ -28,12 +28,12 @@ Lesson with_own_records_alone(const Workbench& bench, const std::string& lesson)
     std::filesystem::copy(lesson_folder(lesson), folder, std::filesystem::copy_options::recursive);
     const std::string checks = read_file(folder / "checks.lua");
     bench.write(folder / "checks.lua", std::regex_replace(checks, expected, ""));
-    bench.write(folder / "lesson.lua", quick_solution_of(lesson));  // it is run to see which records groups have
+    bench.write(folder / "lesson.lua", quick_solution_of(lesson));  // a run shows which data sets groups have
     return {lesson, folder};
 }
 
-/// The worked solution is right on whatever records it is given. What it does with the records of another rig is the
-/// same for every group, so that it is run on them once.
+/// The reference solution is right on any data. Its results on data of another plant are the same for every group, so
+/// that it runs on them once.
 void expect_full_marks(const GroupsOfLesson& groups, Workbench::Memory memory,
                        const std::string& secret = "chosen by a test") {
     const auto& [lesson, seeds] = groups;
@@ -74,7 +74,7 @@ TEST_P(own_records, cost_the_worked_solution_no_points) {
 TEST_P(own_records_of_many, cost_the_worked_solution_no_points) {
     expect_full_marks(GetParam(), Workbench::Memory::kOwn);
 }
-// So many courses, whose hidden records are drawn from secrets of their own.
+// Each seed makes a course whose hidden data sets are drawn from another secret.
 TEST_P(own_records_of_many, cost_no_points_whatever_the_secret) {
     for (const int seed : GetParam().seeds) {
         const std::string secret = fmt::format("secret {}", seed);
@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(all, own_records_of_many, ::testing::ValuesIn(a_hundred
 constexpr const char* kGainAnswer = "--   K: number\n";
 const std::string kComputesGain = "local d = load(\"suspension\")\nanswer('K', mean(d.y:range(300, #d.y)))\n";
 
-// oracle: rig_truth of the specimen that each script names
+// oracle: the true model of the plant variant that each script names
 TEST(own_records, truth_is_that_of_the_record_which_the_answers_came_from) {
     const char* checks =
         "local function gain(seed) return rig_truth('suspension', {specimen = seed}).gain end\n"
@@ -144,7 +144,7 @@ TEST(own_records, truth_is_that_of_the_record_which_the_answers_came_from) {
     EXPECT_EQ(bench.result("others").at("score"), 6);
 }
 
-// oracle: the points that grade gives the same work, and the record that dynlab new wrote
+// oracle: the points that grade gives for the same work, and the data set that dynlab new wrote
 TEST(own_records, check_promises_the_points_that_grade_gives) {
     const char* checks =
         "local y = load('suspension').y\n"
@@ -158,7 +158,7 @@ TEST(own_records, check_promises_the_points_that_grade_gives) {
     for (const char* name : {"group-7", "all"}) {
         bench.submit_file(name, GradingBench::header(kGainAnswer) + kComputesGain);
         work.write(std::string("in/") + name + "/report.md", "The gain was read off the record of the experiment.\n");
-        // The seed of the random numbers may be changed; the record does not change with it.
+        // The seed of the random numbers may change; the data set does not change with it.
         work.write(std::string("in/") + name + "/group.toml", "seed = 4\n");
         EXPECT_THAT(work.dynlab({"check", std::string("in/") + name}).output,
                     HasSubstr("checks of lesson 99_small: 2 of 2 points"));
@@ -172,7 +172,7 @@ TEST(own_records, check_promises_the_points_that_grade_gives) {
     EXPECT_EQ(work.shell(std::string("cd in/group-7 && $DYNLAB run -e \"") + repeated + "\"").output, "true\n");
 }
 
-// oracle: the points of a script that reads the same record, whatever its lesson's own script looks like
+// oracle: the points of a script that reads the same data, whatever the lesson's script looks like
 TEST(own_records, are_given_whatever_the_lesson_calls_its_data) {
     const char* checks =
         "check{id = 'truth', test = function(a) return near(a.K, truth(a, 'suspension').gain, {rel = 0.02}) end}\n"

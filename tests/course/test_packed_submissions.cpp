@@ -92,7 +92,7 @@ TEST(packed_submissions, of_a_pack_without_a_pdf_the_report_is_made) {
     EXPECT_EQ(bench.dump(), before);
 }
 
-// oracle: sha256sum of what was handed in alone
+// oracle: sha256sum of the PDF that was submitted alone
 TEST(packed_submissions, a_pdf_that_came_alone_holds) {
     CourseBench bench(3);
     pack(bench, "group-01", {"report.pdf"}, "packed");
@@ -108,7 +108,7 @@ TEST(packed_submissions, a_pdf_that_came_alone_holds) {
                 HasSubstr("damaged: ask the group for a pack that can be opened"));
 }
 
-// oracle: the rule: a review is a document that somebody can read
+// oracle: the rule that a review is a readable document
 TEST(packed_submissions, a_pack_is_a_review_only_with_a_pdf) {
     CourseBench bench(2, 1);
     for (const char* group : {"group-01", "group-02"})
@@ -157,8 +157,8 @@ TEST(packed_submissions, a_first_version_after_the_reviews_is_asked_about) {
         bench.submit_file(std::string(group) + ".pdf", small_pdf(group), kInTime);
     CourseBench::expect_done(bench.course({"review", "assign", "--at", "2026-03-01 13:00"}));
     CourseBench::expect_done(
-        bench.submit_file("group-01.pdf", small_pdf("more"), "2026-03-09 10:00"));  // nobody reads it
-    bench.bench().shell(  // as review send and release record it
+        bench.submit_file("group-01.pdf", small_pdf("more"), "2026-03-09 10:00"));  // no reviewer reads it
+    bench.bench().shell(  // inserted as review send and release do
         "sqlite3 k/course.db \"INSERT INTO sendings (pair, way, version, hash, made_at) SELECT p.id, 'to reviewer', "
         "v.id, "
         "v.hash, 0 FROM pairs p JOIN versions v ON v.group_id = p.author WHERE v.number = 1\"");

@@ -24,7 +24,7 @@ TEST(peer_review, marks_by_median_and_distance) {
     const Marks marks = marks_of(criteria, reviews, {1, 12, 10});
     EXPECT_EQ(marks.groups[0].medians, (std::vector<std::optional<double>>{4, 6}));
     EXPECT_DOUBLE_EQ(*marks.groups[0].work, 100.0 * 10 / 15);
-    EXPECT_EQ(marks.groups[0].reviews, std::nullopt);  // nobody else scored that report
+    EXPECT_EQ(marks.groups[0].reviews, std::nullopt);  // no other review scored that report
     EXPECT_DOUBLE_EQ(*marks.reviews[2].distance, (4.5 / 5 + 6.0 / 10) / 2);
     EXPECT_TRUE(marks.reviews[2].outlier);
     EXPECT_TRUE(marks.reviews[2].retaliation);  // group 1 had given 3 of 15 points to group 12
@@ -226,7 +226,7 @@ TEST(peer_review, survives_being_killed_at_any_moment) {
     EXPECT_THAT(killed.output, ::testing::ContainsRegex("killed [1-9][0-9]"));  // ten at least came in time
 }
 
-// oracle: both writers' versions are there; a writer that waits too long is told why
+// oracle: both writers' versions are there; a writer that waits too long gets the reason
 TEST(peer_review, keeps_two_writers_apart) {
     CourseBench bench(8);
     for (int i = 1; i <= 8; ++i)

@@ -69,7 +69,7 @@ TEST_F(platform_sheet, moodle_in_french_keeps_semicolons_commas_and_byte_order_m
     EXPECT_EQ(moodle.text(), expected);
 }
 
-// oracle: a header in words that nobody listed, and the places of Moodle's columns
+// oracle: a header in an unlisted language, and the positions of Moodle's columns
 TEST_F(platform_sheet, columns_of_an_unknown_language_are_found_by_their_content) {
     PlatformSheet moodle = sheet(
         "Αναγνωριστικό,Όνομα,Βαθμός,Μέγιστος,Σχόλια\nΣυμμετέχων 12,Ada L,,10.00,\n"

@@ -47,7 +47,7 @@ TEST_F(receipts, are_verified_without_the_course) {
     EXPECT_EQ(without.exit_code, 0);
     EXPECT_THAT(without.output, AllOf(HasSubstr("genuine, signed with the key that it contains"),
                                       HasSubstr(read("key.txt").substr(read("key.txt").find("ed25519: ") + 9))));
-    // The key that stands in a receipt does not make an altered one genuine.
+    // The key in a receipt does not make an altered receipt genuine.
     std::string text = read("mine/r.txt");
     text.replace(text.find("group-01"), 8, "group-02");
     write("mine/r2.txt", text);

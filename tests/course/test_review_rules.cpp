@@ -55,7 +55,7 @@ class Term {
             crane_.id, id(group), hash, at(time), crane_.first_due);
     }
 
-    /// Copies that name nobody, except those of `stopped` groups.
+    /// Sends copies that contain no name, except the copies of `stopped` groups.
     SendOutcome send(Way way, const std::string& time, const std::set<std::string>& stopped = {}) {
         return send_copies(
             course_, crane_, way, at(time),
@@ -228,7 +228,7 @@ TEST_F(review_rules, export_has_the_mark_that_one_student_alone_was_given) {
     EXPECT_THAT(marks_csv(course_, crane_), HasSubstr(",77,oral,"));
 }
 
-// oracle: the group at the time of the first version; another one has a mark of its own
+// oracle: the group at the time of the first version; another group has a separate mark
 TEST_F(review_rules, marks_follow_the_membership_at_the_submission) {
     const auto mine = [&](const std::string& group, const std::string& points) {
         import_scores(course_, crane_, "first",
@@ -304,7 +304,7 @@ TEST_F(review_rules, missing_points_of_an_oral_count_zero) {
     std::map<std::int64_t, GroupMark> marks;
     const Marks all = course_marks(course_, talk, at("2026-04-02 11:00"));
     for (const GroupMark& mark : all.groups) marks[mark.group] = mark;
-    EXPECT_EQ(marks[id("group-01")].work, Mark(90));  // nobody has points for answers yet
+    EXPECT_EQ(marks[id("group-01")].work, Mark(90));  // no group has points for answers yet
     EXPECT_EQ(marks[id("group-02")].work, Mark(40));
     EXPECT_THAT(marks[id("group-02")].zeros, ElementsAre("script"));
     EXPECT_EQ(marks[id("group-03")].work, Mark());

@@ -1,4 +1,4 @@
-// Reviews from the form to the authors, and what is told of stored versions.
+// Reviews from the form to the authors, and the reports about stored versions.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -72,7 +72,7 @@ TEST(reviews, the_form_is_checked_by_its_own_rules) {
     EXPECT_THAT(check("short"), ElementsAre("section-missing", "pages-few"));
 }
 
-// oracle: the roster; a review that names somebody is told of at once and never released
+// oracle: the roster; a review with a name in it is reported at once and never released
 TEST(reviews, that_contain_a_name_are_reported_at_receipt) {
     CourseBench course(3, 2);
     const Workbench& bench = course.bench();

@@ -1,4 +1,4 @@
-// Jobs for boxes and what comes of them. Oracles: what went in; the contract for bytes from a box, which a submission
+// Jobs for sandboxes and their results. Oracles: the input; the contract for bytes from a sandbox, which a submission
 // may have written.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

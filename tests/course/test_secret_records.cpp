@@ -24,7 +24,7 @@ std::vector<std::string> levels() {
     return all;
 }
 
-// oracle: numbers that stand in a file which the script must not read, and in the records of this and the other run
+// oracle: numbers in a file that the script must not read, and in the data of this and the other run
 TEST(secret_records, a_data_set_that_was_submitted_names_no_files_of_others) {
     for (const std::string& level : levels()) {
         GradingBench bench("--   x: number\n",
@@ -107,7 +107,7 @@ TEST(secret_records, are_asked_for_inside_the_test_that_looks_at_them) {
     }
 }
 
-/// Graded by a program that tells what it finds in its box and leaves something behind.
+/// Grading by a program that reports the content of its sandbox and leaves a file there.
 class secret_records_box : public ::testing::Test {
   protected:
     /// Bytes as the shell's printf takes them.
@@ -117,7 +117,7 @@ class secret_records_box : public ::testing::Test {
         return text;
     }
 
-    /// Lists one check, fails to try it, and of a run returns an error that tells what stands in the box.
+    /// Lists one check, fails to try it, and returns for a run an error that lists the content of the sandbox.
     static std::string program() {
         CheckResults listed;
         listed.checks.resize(1);
@@ -126,7 +126,7 @@ class secret_records_box : public ::testing::Test {
         GradedRun run;
         run.error = Message::verbatim("?");
         const std::string bytes = cbor_of(run);
-        // Where its text stands: two bytes, its length and "?".
+        // The place of its text: two bytes, the length of the text and "?".
         const std::size_t error = bytes.find("text", bytes.find("error")) + 4;
         return "#!/bin/sh\n"
                "job=$(tr -d '\\000')\n"

@@ -20,8 +20,8 @@ const std::string kStarter =
     "  if type(value) == \"number\" then print(name, string.format(\"%.3f\", value)) else print(name, value) "
     "end\nend\n";
 
-/// Somebody who writes a lesson's script alone: each task is solved one of several ways, by pieces in an order and
-/// under names of one's own.
+/// An author who writes a lesson's script alone. The author solves each task in one of several ways, with the pieces in
+/// any order and with any names.
 class Author {
   public:
     explicit Author(unsigned seed) : random_(seed) {}
@@ -30,7 +30,7 @@ class Author {
         std::string text = kStarter;
         std::vector<std::string> tasks = {noise(),   regression(), library(),  table(),
                                           scatter(), fit_task(),   residuals()};
-        // The record comes first; what follows does so in an order of one's own.
+        // The data set comes first. The other tasks follow in the author's order.
         std::shuffle(tasks.begin() + 1, tasks.end(), random_);
         for (const std::string& task : tasks) text += extra() + task;
         return text;
@@ -203,7 +203,7 @@ std::string laid_out_differently(std::string script) {
     return std::regex_replace(script, std::regex("\""), "'");
 }
 
-/// The pieces behind the starter and the record in another order.
+/// The pieces after the starter code and the data set, in another order.
 std::string reordered(const std::string& script) {
     const std::size_t place = script.find("\n", script.size() / 2) + 1, head = script.find("iddata(");
     const std::size_t record = script.find('\n', head) + 1;
@@ -226,7 +226,7 @@ std::vector<ComparedScript> independent(unsigned count, unsigned seed) {
 
 constexpr double kLine = 0.6;
 
-// oracle: each script was made by itself
+// oracle: each script was made independently
 TEST(similarity, fifty_who_work_alone_are_not_reported) {
     for (const unsigned seed : {1u, 1000u, 2000u, 3000u}) {
         const auto scripts = independent(50, seed);
@@ -257,7 +257,7 @@ TEST(similarity, copies_are_found_whatever_they_are_called_and_laid_out) {
     EXPECT_EQ(names_of(scripts, similar_pairs(scripts, kStarter, kLine)), planted);
 }
 
-// oracle: as above; a class that copied from one source is told in spite of having everything in common
+// oracle: as above; a class that copied from one source is reported although its scripts have everything in common
 TEST(similarity, a_class_of_copies_and_copies_of_the_worked_solution_are_reported) {
     const std::string solution = Author(77).script();
     std::vector<ComparedScript> scripts;

@@ -1,4 +1,4 @@
-// What is done to a course behind dynlab's back is told. Oracle: the change itself, made with the program sqlite3.
+// Changes to a course that bypass dynlab are reported. Oracle: the change itself, made with the program sqlite3.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -63,8 +63,8 @@ std::vector<Student> class_of(const std::vector<Person>& all, bool with_groups) 
     return students;
 }
 
-/// Writes exports of a class as platforms and systems do. Who handed in what shows in a file's size: ten bytes and as
-/// many as the student's place.
+/// Writes exports of a class as platforms and systems do. The size of a file identifies its author: ten bytes plus the
+/// student's position.
 constexpr const char* kWriters = R"(
 import io, sys, tarfile, unicodedata, zipfile
 people = [line.rstrip('\n').split('\t') for line in open('people.tsv', encoding='utf-8')]
@@ -202,7 +202,7 @@ TEST(submission_names, one_meaning_is_taken_and_two_are_reported) {
     EXPECT_EQ(group("group-12_report"), "group-12");
     EXPECT_EQ(group("Participant_900003_assignsubmission_file_"), "group-12");
     EXPECT_EQ(group("group-9"), "group-9");
-    EXPECT_EQ(group("José García"), "group-2");  // an accent tells them apart where it is written
+    EXPECT_EQ(group("José García"), "group-2");  // a written accent distinguishes the two
     EXPECT_EQ(group("Jose Garcia"), "group-3");
     const auto error_reason = [&](const std::string& name) {
         return message_text(owners.find(called(name)).error_reason);
@@ -217,8 +217,7 @@ TEST(submission_names, one_meaning_is_taken_and_two_are_reported) {
     EXPECT_EQ(error_reason("Anna"), "the name matches no group and no student");
 }
 
-// oracle: the platform's own part of the name, which stands first, and the list that the instructor wrote
-// oracle: Python's code pages
+// oracle: Python's code pages, and the roster that the instructor wrote
 TEST(submission_names, names_in_code_pages_of_other_scripts_are_held_against_the_roster) {
     const Workbench work;
     work.write("zip.py", R"py(
@@ -244,7 +243,7 @@ with zipfile.ZipFile('all.zip', 'w') as z:
     const ChildResult graded =
         bench.bench().dynlab({"grade", "all.zip", "--lesson", "99", "--out", "out", "--isolation", bench.level(),
                               "--no-pdf", "--roster", "roster.csv"});
-    EXPECT_EQ(graded.exit_code, 1);  // of one nobody knows whose it is
+    EXPECT_EQ(graded.exit_code, 1);  // one submission matches no student
     EXPECT_THAT(graded.error_output + graded.output, HasSubstr("matches no student in the roster"));
     std::string reported;
     for (int student = 1; student <= 7; ++student)

@@ -1,5 +1,5 @@
-// What a submission may take is processor time, and a multiple of it by the clock: a busy machine costs no marks.
-// Oracles: processes that are stopped use no processor time; the rules for what is told.
+// A submission has a limit of processor time and, as a multiple of it, of clock time: a busy machine costs no marks.
+// Oracles: stopped processes use no processor time; the rules for the messages.
 #include <gmock/gmock.h>
 
 #include <thread>
@@ -85,7 +85,7 @@ TEST(time_of_submissions, answers_before_a_long_call_of_lua_s_functions_count) {
     }
 }
 
-// oracle: a box that may take no time by the clock ends before any processor time is used
+// oracle: a sandbox without clock time ends before it uses any processor time
 TEST(time_of_submissions, a_run_that_the_clock_ended_is_known_from_one_that_used_its_time) {
     const Workbench bench;
     bench.write("in/analysis.lua", "while true do end\n");
@@ -102,7 +102,7 @@ TEST(time_of_submissions, a_run_that_the_clock_ended_is_known_from_one_that_used
     EXPECT_FALSE(used.waited);
 }
 
-// oracle: the worked solution's own run, which is not made again for the second submission
+// oracle: the run of the reference solution, which is not repeated for the second submission
 TEST(time_of_submissions, are_compared_with_the_worked_solution_also_where_it_is_cached) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     bench.submit_file("a", kSolution);

@@ -32,7 +32,7 @@ std::string row_of(GradingBench& bench, const std::string& id) {
     return bench.bench().shell("grep '^" + id + "' out/gradebook.csv").output;
 }
 
-// oracle: the platform's own part of a name, which stands first
+// oracle: the platform's own part of a name, which comes first
 TEST(unfair_submissions, no_student_submits_for_another_by_the_name_of_a_file) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     const Workbench& work = bench.bench();
@@ -216,7 +216,7 @@ TEST(unfair_submissions, scripts_load_nothing_from_outside_their_folder_at_eithe
     EXPECT_EQ(GradingBench::score(bench.result("own")), 3);
 }
 
-// oracle: what the instructor is told
+// oracle: the messages for the instructor
 TEST(unfair_submissions, the_instructor_gets_messages_about_slips_and_scripts_without_an_end) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     const Workbench& work = bench.bench();

@@ -46,8 +46,8 @@ FilesOut files_out_of(const Workbench& bench, const std::string& archive, Isolat
     return result;
 }
 
-// oracle: the names and contents that Python's modules were given. With # in the place of letters zipfile writes no
-// flag of UTF-8, and the bytes are put in afterwards.
+// oracle: the names and contents given to Python's modules. With # instead of letters, zipfile writes no flag of UTF-8;
+// the test puts in the bytes afterwards.
 TEST(unpack, names_keep_their_letters_in_every_kind_of_archive) {
     const Workbench bench;
     make_with_python(bench, R"(

@@ -39,7 +39,7 @@ TEST(unreadable_submissions, that_are_left_out_have_a_reported_reason) {
             << name;
 }
 
-// oracle: what was handed in, and that no mark is not the mark 0
+// oracle: the submitted files, and that a missing mark is not the mark 0
 TEST(unreadable_submissions, have_no_marks_and_are_reported_by_name) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     const Workbench& work = bench.bench();
@@ -104,7 +104,7 @@ TEST(unreadable_submissions, have_no_marks_and_are_reported_by_name) {
     EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr(",pdf,graded,1,2,"));
 }
 
-// oracle: what stands in which file
+// oracle: the content of each file
 TEST(unreadable_submissions, scripts_are_found_wherever_they_lie_and_the_newest_is_taken) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     const Workbench& work = bench.bench();

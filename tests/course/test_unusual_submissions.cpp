@@ -1,5 +1,5 @@
-// Hand-ins that are not quite what was asked for: kept, and told. Oracles: the bytes that were handed in, and the rules
-// in the help pages.
+// Submissions that differ a little from the assignment: dynlab keeps and reports them. Oracles: the submitted bytes,
+// and the rules in the help pages.
 #include <gmock/gmock.h>
 
 #include "course/course_bench.h"

@@ -53,7 +53,7 @@ class version_changes : public ::testing::Test {
         if (final) words.insert(words.end(), {"--stage", "final"});
         CourseBench::expect_done(bench_.course(words));
     }
-    /// Everybody who handed in gets and writes a review.
+    /// Every group that submitted a report gets and writes a review.
     void review(const std::string& text) {
         make("review", text);
         CourseBench::expect_done(bench_.course({"review", "assign", "--at", "2026-03-02 10:00"}));

@@ -85,7 +85,7 @@ TEST(written_answers, survive_what_editors_and_students_do) {
         answered(kStarter, "-- *Your answer:* COE, as\n--   e is white.", "-- *Votre réponse :*\n-- 2/3");
     EXPECT_EQ(answer_to(1, kept), "COE, as\n  e is white.");
     EXPECT_EQ(answer_to(2, kept), "2/3");
-    // Right below the question; a heading of one's own; lines ended otherwise.
+    // Answers directly below the question, with a heading of the student, and with other line ends.
     const std::string close = std::regex_replace(answered(kStarter, "", "-- ### My reasons\n-- The poles."),
                                                  std::regex("know it\\?\n--\n"), "know it?\n-- COE.\n");
     EXPECT_EQ(answer_to(1, close), "COE.");

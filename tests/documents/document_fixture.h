@@ -14,7 +14,7 @@
 
 namespace dynlab {
 
-/// A folder with a template and a run record, from which a test makes documents.
+/// A folder with a template and run results, from which a test makes documents.
 class DocumentTest : public testing::Test {
   protected:
     DocumentTest() {

@@ -1,4 +1,4 @@
-// Questions to check oneself by. Oracle: the notation and where answers may stand, written here by hand.
+// Self-check questions. Oracle: the notation and the valid places of answers, written here by hand.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Rigs that move on a page, in a real browser. Oracle: their geometry by hand, looked for among the pixels, and the
+// Animated plants on a page, in a real browser. Oracle: their geometry by hand, searched for among the pixels, and the
 // signals that the test wrote.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -20,7 +20,7 @@ using nlohmann::json;
 using test::Browser;
 using testing::HasSubstr;
 
-/// 6 cm x 3 cm: a block of 1 cm that slides 1 cm a meter and stands at x = 1.5 cm at 0 m. Measured: t/4 m, simulated 2
+/// 6 cm x 3 cm: a block of 1 cm that slides 1 cm per meter and is at x = 1.5 cm at 0 m. Measured: t/4 m. Simulated: 2
 /// m.
 Figure sliding_block() {
     PlantDrawing rig;
@@ -97,7 +97,7 @@ TEST_F(motion_pages, parts_stand_where_their_signals_say) {
     const json measured = color(2.5, 1.5), simulated = color(4.5, 1.5);
     EXPECT_NEAR(measured[0].get<int>(), 0x8C, 3) << measured;  // the grey of the data
     EXPECT_NEAR(measured[2].get<int>(), 0x8C, 3) << measured;
-    EXPECT_NEAR(simulated[0].get<int>(), 0x00, 3) << simulated;  // the first color of the house
+    EXPECT_NEAR(simulated[0].get<int>(), 0x00, 3) << simulated;  // the first color of the palette
     EXPECT_NEAR(simulated[2].get<int>(), 0xB2, 3) << simulated;
     EXPECT_EQ(color(1.5, 1.5)[3], 0) << "it has left its place";
     EXPECT_EQ(color(3.25, 1.5)[3], 0);

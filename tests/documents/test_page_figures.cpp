@@ -126,7 +126,7 @@ TEST_F(page_figures, curves_are_drawn_where_their_samples_lie) {
     make(ramps());
     open();
     const json curve = color(0.23, 0.23), paper = color(0.53, 0.12);
-    EXPECT_LT(curve[0].get<int>(), 120) << curve;  // the first color of the house, #0072B2
+    EXPECT_LT(curve[0].get<int>(), 120) << curve;  // the first color of the palette, #0072B2
     EXPECT_GT(curve[2].get<int>(), 120) << curve;
     EXPECT_EQ(paper[3], 0) << paper;
     EXPECT_EQ(value("performance.getEntriesByType('resource').filter(e => !e.name.startsWith('data:')).length"), 0);

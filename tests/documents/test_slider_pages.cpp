@@ -1,4 +1,4 @@
-// Pages whose sliders move without a server, in a real browser. Oracle: what the records say at each place.
+// Pages whose sliders move without a server, in a real browser. Oracle: the run results for each position.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -160,7 +160,7 @@ class slider_pages : public testing::Test {
                   "= handle.getBoundingClientRect(); return [box.left + box.width / 2, box.top + box.height / 2] })()");
         return {static_cast<int>(at[0].get<double>()), static_cast<int>(at[1].get<double>())};
     }
-    /// What a hand does that takes a handle to other places, each with what is to be true then.
+    /// Drags a handle to other places, given relative to the handle.
     void drag(const std::string& kind, const std::vector<std::pair<double, double>>& places, int number = 0) {
         const auto [x, y] = handle(number);
         const json scale = value(
@@ -272,7 +272,7 @@ TEST_F(slider_pages, a_hand_takes_a_handle_to_the_nearest_places) {
     drag("touch", {{-0.3, 0}, {-0.3, 0.9}});
     EXPECT_EQ(place("k"), "2\u202fV");
     EXPECT_EQ(place("c"), "1");
-    // It moves no more when nobody holds it.
+    // The slider does not move after its release.
     browser.act(json::array({{{"type", "pointer"},
                               {"id", "mouse"},
                               {"actions", {{{"type", "pointerMove"}, {"duration", 0}, {"x", 300}, {"y", 300}}}}}})
@@ -286,7 +286,7 @@ TEST_F(slider_pages, a_handle_is_found_where_the_figure_was_zoomed) {
     browser.evaluate(
         "const { plot } = document.querySelector('div.plot'); plot.zoom(plot.panels[0], [0, 0.5], [0.25, 0.75])");
     const json before = value("document.querySelector('div.plot').plot.panels[0].y.high");
-    drag("mouse", {{0.1, 0.1}, {0.6, 2.1}});  // twice as far for the eye
+    drag("mouse", {{0.1, 0.1}, {0.6, 2.1}});  // twice as far on the screen
     EXPECT_EQ(place("k"), "3\u202fV");
     EXPECT_EQ(place("c"), "1");
     EXPECT_EQ(value("document.querySelector('div.plot').plot.panels[0].y.high"), before);
@@ -307,7 +307,7 @@ TEST_F(slider_pages, keys_move_a_handle_step_by_step) {
     EXPECT_EQ(value("document.activeElement.getAttribute('aria-label')"), "end, c = 1, k = 3");
 }
 
-/// Marks of one name in two figures, whose text is another at each place: the hand keeps the one it took.
+/// Marks of one name in two figures, whose text differs at each place: a drag keeps the mark that it started with.
 TEST_F(slider_pages, a_hand_keeps_the_handle_of_its_figure) {
     draws_twice_ = true;
     open();

@@ -1,5 +1,5 @@
-// Archives that are handed in, in a guarded copy as unpacking confines its process: nothing comes to lie beside the
-// folder they are unpacked to, and no more than is allowed in it.
+// Submitted archives, in a guarded copy that is confined as the unpacking process is. No file is written beside the
+// target folder, and no more data than allowed in it.
 #include "course/sandbox_jobs/unpack.h"
 #include "fuzz/fuzz_input.h"
 #include "platform/guarded_call.h"

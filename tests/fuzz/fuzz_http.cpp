@@ -1,4 +1,4 @@
-// Requests that anybody on the machine can send to the server of pages: their heads, and who is let in.
+// Requests that any user of the machine can send to the server of pages: their heads, and who gets access.
 #include <sys/socket.h>
 #include <unistd.h>
 

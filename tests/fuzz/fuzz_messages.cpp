@@ -1,5 +1,5 @@
-// What goes into boxes and comes out of them, as CBOR, and run records as JSON. What can be read is written and read
-// again with equal bytes.
+// The input and output of sandboxes as CBOR, and run results as JSON. Data that can be read are written and read again
+// with equal bytes.
 #include "course/checks/check_descriptions.h"
 #include "course/checks/check_run.h"
 #include "course/review/version_description.h"

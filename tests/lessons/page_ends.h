@@ -50,8 +50,8 @@ inline std::vector<std::string> section_titles(const std::string& source) {
     return titles;
 }
 
-/// No page ends with more than 3 cm of white, except before a section: 4 cm where the figures of the last one stand
-/// first on the next page, more where the section's heading does. The document's last page may end anywhere.
+/// No page ends with more than 3 cm of white, except before a section: 4 cm if the figures of the last section come
+/// first on the next page, more if the heading does. The document's last page may end anywhere.
 inline void expect_full_pages(const Workbench& bench, const std::string& file,
                               const std::vector<std::string>& section_titles) {
     const std::vector<double> ends = white_page_ends(bench, file);

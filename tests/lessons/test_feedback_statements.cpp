@@ -1,5 +1,5 @@
-// What lesson 7 says in words, held to a second route: the rigs' parameters, what must hold for any noise, and the
-// experiments repeated with other seeds, where the lesson tells of one record.
+// The statements of lesson 7, checked by a second route: the plants' parameters, conditions that are true for any
+// noise, and, where the lesson describes one data set, the experiments repeated with other seeds.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -52,7 +52,7 @@ TEST(lesson_07_feedback, finds_the_bias_of_the_loop_its_cures_and_the_drift) {
     EXPECT_LT(number(record, "two_plain"), 0.3 * number(record, "two_robust")) << "the noise is colored";
 
     const DriftingProcessParameters heater;
-    const int third = 3, fourth = 4, fifth = 5, first = 1;  // rows of the pieces, behind the whole record
+    const int third = 3, fourth = 4, fifth = 5, first = 1;  // rows of the pieces, after the complete data
     EXPECT_LT(cell(record, "pieces", third, 1), cell(record, "pieces", first, 1)) << "the gain falls";
     EXPECT_NEAR(cell(record, "pieces", fourth, 1), cell(record, "pieces", third, 1), 0.01) << "no longer";
     EXPECT_GT(cell(record, "pieces", fifth, 1), cell(record, "pieces", fourth, 1) + 0.03) << "and returns";
@@ -75,8 +75,8 @@ TEST(lesson_07_feedback, finds_the_bias_of_the_loop_its_cures_and_the_drift) {
     EXPECT_GT(number(record, "walk_K"), 3 * number(record, "riv_K")) << "what the walk pays";
 }
 
-/// Correlation of the error of the true model with the voltage, a quarter of a second earlier, at once and later: of
-/// the whole error, of what its last 20 values do not tell, and of that of the open loop.
+/// Correlation of the true model's error with the voltage a quarter of a second earlier, at once and later. The errors:
+/// the whole error, its part that the last 20 values do not predict, and the error in open loop.
 TEST(lesson_07_feedback, the_error_meets_earlier_voltages_only_because_it_lasts) {
     const auto record = record_of(R"(
         local G, past, times = rig_truth("drive").G, 20, 60
@@ -108,8 +108,8 @@ TEST(lesson_07_feedback, the_error_meets_earlier_voltages_only_because_it_lasts)
         EXPECT_LT(std::abs(number(record, none)), 0.03) << none;
 }
 
-/// With r = 0 and the right model of the noise, an autoregression, least squares finds the plant from very many
-/// samples; from as many as the record has, b is lost in its standard error. Plant and controller are those of the rig.
+/// With r = 0 and the right noise model, an autoregression, least squares finds the plant from very many samples. With
+/// the number of samples of the lesson, b is lost in its standard error. Plant and controller are the simulated ones.
 struct AtRest {
     Eigen::Vector4d theta, error;
 
@@ -248,7 +248,7 @@ TEST(lesson_07_feedback, other_drives_are_found_as_closely_as_the_check_asks) {
     EXPECT_LT(number(record, "gain"), 0.45);
 }
 
-/// The library's recursions on twenty repetitions in place of the lesson's own on one.
+/// The library's recursions on twenty repetitions; the lesson uses its own recursions on one.
 TEST(lesson_07_feedback, a_jump_of_the_process_misleads_least_squares_and_a_slow_drift_does_not) {
     const auto record = record_of(R"(
         local truth, sums, times = rig_truth("drifting_process"), {}, 20

@@ -1,5 +1,5 @@
-// Which data a lesson loads, and the records that groups have for themselves. Oracles: Lua's own rig() and save_mat(),
-// whose file must be the same bytes; what the spelling of each script means in Lua.
+// The data that a lesson loads, and the data sets of groups. Oracles: Lua's simulated plants and save_mat(), whose file
+// must be the same bytes; the meaning of each script's spelling in Lua.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

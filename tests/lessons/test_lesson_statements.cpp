@@ -31,7 +31,7 @@ json record_of_code(const std::string& code) {
     return json::parse(bench.read("made/record.json"));
 }
 
-/// A cell of a table; "−1.5 ± 0.2" and "3.2 (0.3)" give the number and what stands behind it.
+/// A cell of a table. "−1.5 ± 0.2" and "3.2 (0.3)" give the number and the value after it.
 std::pair<double, double> cell(const json& record, const std::string& table, int row, int column) {
     std::string text = record.at("tables").at(table).at("rows").at(row).at(column);
     text = replaced(replaced(text, "−", "-"), " ± ", " (");
@@ -61,7 +61,7 @@ TEST_P(lesson_pages, have_no_code_that_wraps) {
     }
 }
 
-// The same for the code that stands in students' copies in place of the solution.
+// The same for the code that replaces the solution in students' copies.
 TEST(lesson_sheets, have_no_starter_that_wraps) {
     const std::string mark = "-- STARTER: ";
     for (const std::string& lesson : lesson_slugs()) {
@@ -78,7 +78,7 @@ TEST(lesson_sheets, have_no_starter_that_wraps) {
     }
 }
 
-// The same for what students are given of the lessons that end with a report of their own form.
+// The same for the code that students receive in lessons with a special report template.
 TEST(lesson_sheets, have_no_code_that_wraps) {
     for (const std::string& lesson : lesson_slugs(true)) {
         std::ifstream file(script_of(lesson));

@@ -208,7 +208,7 @@ TEST(lesson_04, studies_agree_with_the_reference_and_own_programs_with_the_libra
     expect_study(rows("low"), "mc_sys2_0.2.json", {"lssvf_lambda3_yfoh", "ivsvf_lambda3_yfoh", "oe"});
     expect_study(rows("high"), "mc_sys2_0.4.json", {"lssvf_lambda3_yfoh", "ivsvf_lambda3_yfoh", "oe"});
     nlohmann::json holds = rows("holds");
-    holds.erase(3);  // the record without noise
+    holds.erase(3);  // the data without noise
     expect_study(holds, "mc_sys2_0.2.json", {"lssvf_lambda3_yfoh", "lssvf_lambda3_yzoh"});
     EXPECT_LT(number(record, "agreement"), 1e-10);
     EXPECT_LT(number(record, "iv_agreement"), 1e-10);

@@ -1,5 +1,5 @@
-// Lesson 1 on the records that groups have for themselves. Oracles: the parameters of each specimen, and what the
-// lesson's own text says of its figures and tables.
+// Lesson 1 on the data sets of groups. Oracles: the parameters of each plant variant, and the statements of the
+// lesson's text about its figures and tables.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,8 +18,8 @@ namespace test_other_specimens {
 
 constexpr const char* kLesson = "01_process_models";
 
-/// The lesson on records of another exchanger and another suspension. Its two hundred repetitions are of the
-/// exchanger that all have: two of them do.
+/// The lesson on data of another exchanger and another suspension. Its two hundred repetitions use the common
+/// exchanger; two of them are enough.
 PercentScript on_specimen(int number) {
     static const std::regex loaded(R"re(\bload\("(heat_exchanger|suspension)"\))re"), repeated("\nlocal runs = 200\n");
     const std::filesystem::path file = lesson_folder(kLesson) / "lesson.lua";

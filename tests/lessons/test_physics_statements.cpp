@@ -1,4 +1,4 @@
-// What lesson 6 says in words, held to a second route: the rigs' parameters and their sensors' noise.
+// The statements of lesson 6, checked by a second route: the plants' parameters and the noise of their sensors.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -75,7 +75,7 @@ double angle_error(const Vector& p, const CraneRecord& record, double delta) {
 }
 
 /// The seven parameters with the smallest simulation error, each output's weighted by its standard deviation:
-/// Gauss-Newton with differences, from the values that the rig's own parameters give.
+/// Gauss-Newton with differences, from the values that the plant's own parameters give.
 Vector fitted_crane(const CraneRecord& record, double delta) {
     Vector p{{1.0, 14.5, 0.24, 0.0334, 0.3722, 0.1, 0.024}};
     const Matrix y = measured_run(record);
@@ -98,7 +98,7 @@ Vector fitted_crane(const CraneRecord& record, double delta) {
     return p;
 }
 
-// Own equations, own integration and own search, on the records as the simulator makes them.
+// Separate equations, integration and search, on the data from the simulator.
 TEST(lesson_06_physics, the_width_of_a_smooth_sign_is_a_part_of_the_model) {
     const nlohmann::json record = record_of_lesson("06_physics");
     const auto crane = simulate_crane({}, {}, 1);
@@ -198,7 +198,7 @@ TEST(lesson_06_physics, finds_the_errors_of_the_linear_models) {
         EXPECT_NEAR(coefficient(k, 2), torricelli[k], 0.1 * std::abs(torricelli[k])) << k;
     }
     EXPECT_LE(number(record, "sindy_within"), 10);
-    // linear, without rims, six parameters, NARX: the order on the ten records, the linear model's offset held or not
+    // linear, without rims, six parameters, NARX: the order on the ten data sets, the linear model's offset held or not
     const auto on_ten = [&record](int row) { return cell(record, "verdict", row, 3); };
     EXPECT_LT(6 * on_ten(2), on_ten(0));
     EXPECT_LT(on_ten(0), on_ten(1));
@@ -210,7 +210,7 @@ TEST(lesson_06_physics, finds_the_errors_of_the_linear_models) {
     EXPECT_LT(number(record, "kept_here"), cell(record, "verdict", 1, 2));
 }
 
-/// The crane's equations in names of our own, and what its records show of them.
+/// The crane's equations with other names, for estimates from the crane's data.
 const std::string kCraneEquations = R"lua(local function crane_equations(t, s, u, p)
     local sine, cosine = sin(s[3]), cos(s[3])
     local torque = -(9.81/p.length)*sine - (p.pivot + p.air*abs(s[4]))*s[4]
@@ -221,7 +221,7 @@ end
 local from_rest = {states = 4, outputs = function(t, s) return {s[1], s[3]} end, x0 = {0, 0, 0, 0}}
 )lua";
 
-// The equations once more, with other names and from other starts, on records that the lesson does not use.
+// The equations again, with other names and from other starts, on data that the lesson does not use.
 TEST(lesson_06_physics, of_friction_the_pushes_show_more_than_their_standard_error) {
     const Workbench bench(Workbench::Memory::kShared);
     const auto record = record_of_code(bench, kCraneEquations + R"lua(local Ts = 0.02

@@ -67,7 +67,7 @@ TEST(report_statements, crane_is_evaluated_by_repetitions_and_by_its_equations) 
                 0.2 * number(record, "scatter_a3_position"))
         << "the angle adds nothing";
     // Rows: position F (1,0), (2,0), (4,2); sF (1,0), (3,2), (4,3). YIC prefers the free model, BIC the last one, the
-    // validation record the chosen one.
+    // validation data the chosen one.
     const int unbound = 2, chosen = 4, rich = 5, yic = 4, bic = 5, validation_fit = 7;
     for (int row = 0; row < 6; ++row) {
         if (row != unbound) {

@@ -32,7 +32,7 @@ TEST(self_check, has_five_questions_a_lesson_each_with_one_right_answer_and_a_re
         const std::regex with_reason("- \\[[ x]\\] [^\n]+\n\n  [^\n]+[.*)]\n");
         EXPECT_EQ(std::distance(std::sregex_iterator(text.begin(), text.end(), with_reason), std::sregex_iterator()),
                   15);
-        std::set<std::size_t> places;  // nobody learns "always the second"
+        std::set<std::size_t> places;  // no reader learns "always the second"
         for (std::size_t at = text.find("::: choice"); at != std::string::npos; at = text.find("::: choice", at + 1))
             places.insert(count(text.substr(at, text.find("\n- [x]", at) - at), "\n- [ ]"));
         EXPECT_GE(places.size(), 2u);

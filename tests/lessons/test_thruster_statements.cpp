@@ -1,5 +1,5 @@
-// What the slides of lesson 5 say, held to a second route: the simulator's parameters, and lag, delay and static curve
-// found again on its records by linear regression, without any estimator.
+// The statements of the slides of lesson 5, checked by a second route: the simulator's parameters, and lag, delay and
+// static curve found from its data by linear regression, without any estimator.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -16,7 +16,7 @@ namespace test_thruster_statements {
 
 const double kPeriod = ThrusterExperiments{}.Ts;
 
-/// The three records of a shape, measured from neutral and from the level at rest.
+/// The three data sets of a shape, measured from neutral and from the level at rest.
 struct Records {
     std::vector<Vector> width, thrust;
 
@@ -38,7 +38,7 @@ Vector root(const Vector& thrust) {
     return thrust.unaryExpr([](double F) { return std::copysign(std::sqrt(std::abs(F)), F); });
 }
 
-/// Straight lines between values at these widths: the weight of each value.
+/// Linear interpolation between values at these widths: the weight of each value.
 Matrix weights(const Vector& edges, const Vector& width) {
     Matrix result = Matrix::Zero(width.size(), edges.size());
     for (Index k = 0; k < width.size(); ++k) {

@@ -43,8 +43,8 @@ TEST_F(caches, what_one_of_dynlabs_programs_computed_the_others_recall) {
     EXPECT_THAT(weave_by("$DYNLAB-course"), HasSubstr("a.html (up to date)"));
 }
 
-// Of a portable build, the loader takes the library for this processor; another one is another program. Any library
-// under its name stands for that here.
+// In a portable build, the loader selects the library for this processor. Another library makes another program. Here,
+// any library with the same file name serves as the other one.
 TEST_F(caches, another_variant_of_the_programs_library_has_no_cache_hits) {
     bench_.write("a.lua", kHeader + kStudy);
     const auto weave_with = [&](const std::string& environment) {

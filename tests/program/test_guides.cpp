@@ -1,4 +1,5 @@
-// Guides whose commands are run as they stand there. Oracle: exit codes, and for messages what the guide prints below.
+// Guides whose commands are run as written. Oracle: exit codes, and for messages the output that the guide prints
+// below.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,7 +13,7 @@ namespace dynlab::test {
 namespace test_guides {
 using testing::HasSubstr;
 
-/// What stands between fences of the guide, in order.
+/// The contents of the guide's fenced code blocks, in order.
 std::vector<std::string> blocks_of(const std::string& guide) {
     const std::string text = read_file(DYNLAB_SOURCE_DIR "/engine/scripting/reference/guides/guide-" + guide + ".md");
     static const std::regex fenced("\n```(?:sh)?\n([^`]*)\n```\n");

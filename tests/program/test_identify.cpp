@@ -14,7 +14,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
 
-/// Records of 2/(s^2 + 4s + 3) (x) and (s + 2)/(s^2 + 0.8s + 4) (theta).
+/// Data of 2/(s^2 + 4s + 3) (x) and (s + 2)/(s^2 + 0.8s + 4) (theta).
 constexpr const char* kRecords = R"lua(
 local u, Ts = prbs(7, 8), 0.05
 local t = linspace(0, (#u - 1)*Ts, #u)

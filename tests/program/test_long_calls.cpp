@@ -103,7 +103,7 @@ Ending ended_by(int number, const std::string& code, const Workbench& bench) {
     std::this_thread::sleep_for(150ms);  // into the call
     const auto before = Clock::now();
     ::kill(process, number);
-    std::thread last_resort([process, fd = ends[0]] {  // the pipe's end tells the process's
+    std::thread last_resort([process, fd = ends[0]] {  // the pipe closes when the process ends
         pollfd end{fd, 0, 0};
         if (::poll(&end, 1, 30'000) == 0) ::kill(process, SIGKILL);
     });

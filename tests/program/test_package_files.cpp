@@ -71,7 +71,7 @@ TEST(package_files, version_licence_and_packages_are_those_of_the_project) {
     EXPECT_THAT(guide, HasSubstr(option));
     EXPECT_THAT(read_file(DYNLAB_SOURCE_DIR "/tests/package/try_package"),
                 HasSubstr(std::regex_replace(option, std::regex("'"), "")));
-    // The licence stands there indented, with a dot for an empty line.
+    // The file contains the license with an indent, and with a dot for an empty line.
     std::string licence = std::regex_replace(read_file(kPackaging + "copyright"), std::regex("\n ([.](?=\n))?"), "\n");
     const std::string terms = read_file(DYNLAB_SOURCE_DIR "/LICENSE");
     EXPECT_THAT(licence, HasSubstr(terms.substr(terms.find("Permission"))));

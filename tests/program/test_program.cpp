@@ -153,7 +153,7 @@ TEST(program, a_task_sheet_has_the_questions_and_no_solutions) {
     EXPECT_THAT(bench.read("four.md"), HasSubstr("**Question 4.**"));
 }
 
-// oracle: the record that dynlab run writes
+// oracle: the run log that dynlab run writes
 TEST(program, a_report_gives_the_record_of_its_run_whether_it_was_made_before_or_not) {
     const Workbench bench;
     bench.write("mine/analysis.lua",

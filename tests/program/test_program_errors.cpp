@@ -118,7 +118,7 @@ TEST(program_errors, printing_into_a_full_device_is_reported) {
 TEST(program_errors, full_disk_leaves_the_old_report) {
     const Workbench bench;
     write_folder(bench, "print(1)\n", "Text.\n");
-    // A file system of 16 KiB in a mount namespace of its own; the PDF needs more.
+    // A file system of 16 KiB in a separate mount namespace; the PDF needs more.
     const ChildResult result = bench.shell(
         "mkdir disk; unshare --mount --map-root-user bash -c '"
         "mount -t tmpfs -o size=16k tmpfs disk && echo old > disk/report.pdf; "

@@ -1,5 +1,5 @@
-// What `dynlab run` and `dynlab report` tell of a script: its errors with place, line and calls, what it reported, what
-// has no place in the text. Oracle: the lines of the scripts, written here by hand.
+// The messages of `dynlab run` and `dynlab report` about a script: errors with place, line and calls, reported values,
+// and results without a place in the text. Oracle: the lines of the scripts, written here by hand.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -102,7 +102,7 @@ TEST(script_messages, files_of_a_run_lie_beside_its_script) {
     ASSERT_EQ(bench.dynlab({"run", "B"}).exit_code, 0);
     EXPECT_THAT(bench.files(), ElementsAre("A", "B"));
     EXPECT_TRUE(std::filesystem::exists(bench.path("A/r.csv")));
-    // A figure that the script no longer makes goes; what is somebody's own stays.
+    // A figure that the script no longer makes is removed. The user's files stay.
     bench.write("A/analysis_out/notes.txt", "mine");
     bench.write("A/analysis.lua", "plot({1, 2})\n");
     EXPECT_EQ(bench.dynlab({"run", "A"}).output, first);

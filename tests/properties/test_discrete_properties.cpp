@@ -44,7 +44,7 @@ const Method kMethods[] = {
      [](const IdData& data, const PolynomialOrders& orders) { return iv4(data, orders); }},
     {"armax", [](int nk) { return with_noise(PolynomialOrders::arx(2, {2}, {nk}), 2, 0); },
      [](const IdData& data, const PolynomialOrders& orders) { return armax(data, orders, tight()); }},
-    // Without D: with it the first nd samples are left out, which are others in a later record.
+    // Without D: with D, the first nd samples are left out, and a later start leaves out other samples.
     {"bj", [](int nk) { return with_noise(PolynomialOrders::output_error({2}, {2}, {nk}), 2, 0); },
      [](const IdData& data, const PolynomialOrders& orders) { return bj(data, orders, tight()); }},
 };
@@ -107,7 +107,7 @@ TEST_P(discrete_properties, a_later_output_is_a_longer_delay) {  // oracle: inva
     late.tail(595) = y.head(595);
     const auto shifted = fit(data_of(u, late), 6);
     const auto cut = fit(data_of(u.head(595), y.head(595)));
-    // arx leaves out the samples without a recorded past: the shifted record holds the equations of the cut one.
+    // arx leaves out the samples without a measured past: the shifted data contain the equations of the cut data.
     EXPECT_LT(worst_relative(shifted.theta, cut.theta), 1e-8);
 }
 

@@ -42,7 +42,7 @@ Matrix free_run(const FreeRunModel& model, const IdData& data) {
     return model.free_run(data, 0, Vector()).output;
 }
 
-TEST(learning_properties, sindy_finds_the_same_in_other_units) {  // oracle: the same record in other units
+TEST(learning_properties, sindy_finds_the_same_in_other_units) {  // oracle: the same data in other units
     for (const bool weak : {false, true}) {
         const auto found = [&](const IdData& data) {
             SindyOptions options;
@@ -58,7 +58,7 @@ TEST(learning_properties, sindy_finds_the_same_in_other_units) {  // oracle: the
     }
 }
 
-TEST(learning_properties, narx_finds_the_same_in_other_units) {  // oracle: the same record in other units
+TEST(learning_properties, narx_finds_the_same_in_other_units) {  // oracle: the same data in other units
     const IdData data = with_relative_noise(oscillator(), 0.01, 1).select({1}, {1});
     const IdData other = scaled(data, 100, 0.01, 60);
     const NarxLags lags{2, {2}, {1}};
@@ -68,7 +68,7 @@ TEST(learning_properties, narx_finds_the_same_in_other_units) {  // oracle: the 
     EXPECT_NEAR(one.fit.noise_variance[0] * 1e4, two.fit.noise_variance[0], 1e-8 * two.fit.noise_variance[0]);
 }
 
-TEST(learning_properties, dmdc_finds_the_same_in_other_units) {  // oracle: the same record in other units
+TEST(learning_properties, dmdc_finds_the_same_in_other_units) {  // oracle: the same data in other units
     const IdData data = with_relative_noise(oscillator(), 0.01, 1);
     const DmdcFit one = dmdc(data, {2, 3}), two = dmdc(scaled(data, 100, 0.01, 60), {2, 3});
     EXPECT_LT((one.fit.fit_percent - two.fit.fit_percent).cwiseAbs().maxCoeff(), 1e-6);

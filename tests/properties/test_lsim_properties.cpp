@@ -56,7 +56,7 @@ TEST_P(lsim_properties, responses_superpose) {  // oracle: linearity, also in th
 }
 
 TEST_P(lsim_properties, a_later_input_gives_the_same_response_later) {  // oracle: time invariance
-    // The shifted record begins with a held zero; a straight-line input must also begin with one.
+    // The shifted input begins with a held zero, so that a linearly interpolated input must also begin with zero.
     Vector u = RandomStream(2).normal(kCount);
     u(0) = 0;
     for (const Index shift : {1, 3, 7})

@@ -38,7 +38,7 @@ TEST_P(recursive_properties, another_unit_of_time_scales_the_coefficients) {
               1e-6);
 }
 
-// 5/(cut-off x Ts), the blocks of samples that tell the errors' color, is a whole number but for rounding.
+// 5/(cut-off x Ts), the number of samples in a block for the color of the errors, is whole except for rounding.
 TEST_P(recursive_properties, another_unit_of_time_scales_the_standard_errors) {
     for (const double unit : {1e6, 1e-6, 7.0, 1.0 / 3}) {
         IdData data = course_record(0.05, 3);

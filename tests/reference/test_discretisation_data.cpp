@@ -33,7 +33,7 @@ double relative_difference(const Matrix& value, const Matrix& reference) {
 }
 
 TEST(discretisation_data, step_matrices_of_four_filters) {  // oracle: reference data, 80-bit arithmetic
-    constexpr double kTolerance = 5e-14;  // entries of F lose up to two digits to cancellation of their own series
+    constexpr double kTolerance = 5e-14;  // cancellation in the series costs entries of F up to two digits
     std::ifstream file(DYNLAB_SOURCE_DIR "/tests/reference/data/discretisation_longdouble.json");
     const nlohmann::json filters = nlohmann::json::parse(file);
     ASSERT_EQ(filters.size(), 4u);

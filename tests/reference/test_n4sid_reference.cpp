@@ -11,8 +11,8 @@ namespace test_n4sid_reference {
 using namespace dynlab;
 using namespace dynlab::test;
 
-// Oracle: the state matrix that the example program of SLICOT's IB01BD prints for the same record (four digits; order
-// 4, 15 block rows, means kept): A from the shift of the subspace, as here.
+// Oracle: the state matrix that the example program of SLICOT's IB01BD prints for the same data (four digits; order 4,
+// 15 block rows, means kept): A from the shift of the subspace, as here.
 TEST(n4sid_reference, hair_dryer_eigenvalues) {
     const Matrix printed{{0.8924, 0.3887, 0.1285, 0.1716},
                          {-0.0837, 0.6186, -0.6273, -0.4582},

@@ -142,13 +142,13 @@ const std::string kRecord =
     "local y = lsim(G, u, 0.05) + 0.05*e\n"
     "local d = iddata(y, u, 0.05)\n";
 
-/// What stops the statements after the record's, or all they print.
+/// The error that stops the statements after the data set, or all their output.
 std::string said(const std::string& code) {
     return printed(kRecord + code);
 }
 
 TEST(bad_input, the_table_holds_every_method) {
-    // Those that need more than a record have tests of their own: script_loops, script_learning, script_grey_box.
+    // Methods that need more than a data set have separate tests: script_loops, script_learning, script_grey_box.
     const std::set<std::string> others = {"lsq",     "polyfit_report", "forecast", "gradient_descent",
                                           "greyest", "idgrey",         "clivsvf",  "clsrivc",
                                           "rsrivc",  "narx",           "sindy",    "dmdc"};

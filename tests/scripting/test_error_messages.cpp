@@ -1,5 +1,5 @@
-// An error on its way from C++ through Lua to the record of a run stays a message with arguments. Oracles: the ids and
-// arguments that the sources write, the texts that a student reads, written by hand.
+// An error stays a message with arguments on its way from C++ through Lua to the run log. Oracles: the ids and
+// arguments in the sources, and the texts for students, written by hand.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -116,7 +116,7 @@ TEST(error_messages, options_have_the_names_of_scripts_for_every_reader) {
     EXPECT_EQ(with_script_options(plural(2, "{} pole", "{} poles"), {}), plural(2, "{} pole", "{} poles"));
 }
 
-// A kind without phrases of its own would stay English in every language.
+// A kind without phrases would stay English in every language.
 TEST(error_messages, all_kinds_of_objects_have_phrases) {
     for (const TypeEntry& entry : catalog_of_types()) {
         EXPECT_NE(with_article(entry.type->name).id(), "{}") << entry.type->name;

@@ -113,7 +113,7 @@ TEST(function_tables, show_their_signature_on_the_help_page) {
         ASSERT_TRUE(page) << function.name;
         const std::string text = page_text(*page, &function), signature = signature_text(function);
         EXPECT_THAT(text, StartsWith("# " + std::string(function.name) + "\n\n")) << function.name;
-        // Each form of the call stands on its own line.
+        // Each form of the call is on a separate line.
         EXPECT_THAT(text, HasSubstr("\n\n## Syntax\n\n`" + signature.substr(0, signature.find("; ")))) << function.name;
     }
     EXPECT_THAT(page_text(*find_help_page("lsim"), find_function("lsim")),

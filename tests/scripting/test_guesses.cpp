@@ -1,4 +1,4 @@
-// Guesses that are typed before a run. Oracle: the sentences, written here by hand.
+// Predictions that the user types before a run. Oracle: the sentences, written here by hand.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-// What is told of a script that is not run. Oracles: mistakes written by hand with their place marked by "^" in a line
-// of its own below; the lessons, demonstrations and examples of the help pages, which run and so have none; the lists
-// of options in the sources of the bindings.
+// Messages about a script that is not run. Oracles: mistakes written by hand with their place marked by "^" in the line
+// below; the lessons, demonstrations and examples of the help pages, which run and so have no mistakes; the lists of
+// options in the sources of the bindings.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// Results of long calls are kept by content. Oracles: equality of every byte of what was computed and what was
-// recalled; the number of calls computed.
+// The cache keeps results of long calls by content. Oracles: equality of every byte of computed and cached results; the
+// number of computed calls.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -238,8 +238,8 @@ TEST_F(memoized_calls, quick_calls_and_calls_without_a_cache_leave_nothing) {
     EXPECT_FALSE(std::filesystem::exists(home_.path() / "dynlab/calls"));
 }
 
-// Oracle: the first run. An entry that was damaged on the disk, or that holds another form of results, is created
-// again; what is printed and drawn stands there once.
+// Oracle: the first run. A cache entry that is corrupt on the disk, or that contains another form of results, is
+// created again. Printed text and figures appear once.
 TEST_F(memoized_calls, damaged_entries_are_computed_again) {
     const std::string code = "delayest(d, {poles = {1, 3}, TdMax = 0.6})\n";
     const Use first = run_with_cache(code);
@@ -372,7 +372,7 @@ TEST_F(memoized_calls, texts_of_calls_distinguish_contents_and_shapes) {
         EXPECT_FALSE(text(none)) << none;
 }
 
-// Oracle: definition; a digest that is kept is that of an equal record created again.
+// Oracle: definition; a cached digest equals the digest of an equal data set that is created again.
 TEST_F(memoized_calls, digests_are_kept_with_the_record) {
     GnuplotRenderer renderer;
     Runtime runtime({}, renderer);

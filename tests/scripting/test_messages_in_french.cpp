@@ -69,7 +69,7 @@ void expect_french_text(const std::string& code) {
     for (std::size_t i = 0; i < english.size(); ++i) expect_french(english[i], french[i]);
 }
 
-/// A record of two poles and a delay with white noise at the output; `d`, and `s` with ten times the noise.
+/// Data of two poles and a delay with white noise at the output: `d`, and `s` with ten times the noise.
 const std::string kRecord = R"(rng(3)
 local u = prbs(6, 12)
 local t = range(0, 0.1, 0.1*(#u - 1))

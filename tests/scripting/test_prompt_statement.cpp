@@ -26,7 +26,7 @@ std::vector<std::string> token_texts(std::string_view text) {
     return texts;
 }
 
-/// What the statements print or complain of, one after the other, in one session.
+/// The output and the errors of the statements, run in sequence in one session.
 std::string session(const std::vector<std::string>& statements) {
     std::string text;
     PromptSession prompt("dynlab_out", [&text](const std::string& printed) { text += printed; });

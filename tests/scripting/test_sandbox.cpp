@@ -87,7 +87,7 @@ TEST(sandbox, limits_printed_text) {
               "lesson.lua:1: the script printed more text than allowed");
 }
 
-/// Seconds until `code` ends by itself or by the limit of 0.2 s of processor time.
+/// Seconds until the limit of 0.2 s of processor time stops `code`.
 double seconds_until_end(const std::string& code) {
     RunOptions options;
     options.time = TimeLimits{std::chrono::milliseconds(200), 100};
@@ -97,8 +97,8 @@ double seconds_until_end(const std::string& code) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// These loops would run for ever: a bound in seconds that tells ended from endless on any machine, no measure of
-/// speed.
+/// These loops would run forever. The bound in seconds separates stopped from endless loops on any machine; it does not
+/// measure speed.
 constexpr double kEnds = 10;
 
 TEST(sandbox, stops_every_endless_loop_at_the_time_limit) {

@@ -72,7 +72,7 @@ TEST(script_discrete, orders_are_explained) {
     EXPECT_THAT(refusal("print(Go.A)"), HasSubstr("discrete-time polynomial models"));
 }
 
-// Oracle: the simulated system, of which every method is told that it has an integrator.
+// Oracle: the simulated system. Every method gets the option Integration.
 TEST(script_discrete, integration_adds_an_integrator) {
     const std::string record =
         "local u = prbs(7, 6)\nlocal data = iddata(lsim(tf({3}, {1, 2, 0}), u, 0.05), u, 0.05)\n";

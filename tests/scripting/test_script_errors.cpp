@@ -161,7 +161,7 @@ TEST(script_errors, hint_at_lua_where_a_line_is_matlab) {
     });
 }
 
-// Lua finds out at the end of the script; what must be mended stands further up.
+// Lua finds the error at the end of the script. The line to fix is further up.
 TEST(script_errors, name_the_line_where_something_is_missing) {
     const std::string below = "\n-- %% [markdown]\n-- Words, else if not.\n\n-- %%\nlocal z = 1\nprint(z)\n";
     check({
@@ -312,7 +312,7 @@ TEST(script_errors, wrong_lines_of_any_length_are_reported) {
             EXPECT_THAT(error_of(wrong), testing::HasSubstr("lesson.lua:1:"));
 }
 
-/// A max or min of the script's own is nobody's mistake.
+/// A max or min function that the script defines is not a mistake.
 TEST(script_errors, a_maximum_of_one_s_own_is_compared) {
     EXPECT_EQ(printed("local function max(t) return 7 end print(math.max(0, max{1}))"), "7\n");
     EXPECT_EQ(printed("local max = math.max print(math.max(0, max(3, 4)), math.max(1, max(2)))"), "4\t2\n");

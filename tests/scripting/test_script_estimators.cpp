@@ -1,4 +1,4 @@
-// Oracle: how the record was made, and srivc on the same record.
+// Oracle: how the data were made, and srivc on the same data.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -121,7 +121,7 @@ TEST(script_estimators, known_parameters_stay_as_they_are) {  // oracle: the sys
     EXPECT_THAT(error_of(kDelayed + "srivc(data, {1, 2, 6}, {Fixed = {3}})"), HasSubstr("must contain named values"));
 }
 
-TEST(script_estimators, each_output_has_orders_of_its_own) {  // oracle: each output by itself
+TEST(script_estimators, each_output_has_orders_of_its_own) {  // oracle: each output alone
     EXPECT_EQ(
         printed(
             kDelayed +
@@ -132,7 +132,7 @@ TEST(script_estimators, each_output_has_orders_of_its_own) {  // oracle: each ou
         "true\t4\t2\n");
 }
 
-// Oracle: what was put into the record, and the diagnostics of the C++ function.
+// Oracle: the values put into the data, and the diagnostics of the C++ function.
 TEST(script_estimators, srivc_reports_the_diagnostics_of_the_cpp_function) {
     const Vector u = prbs(7, 8);
     const Vector ripple = (Vector::LinSpaced(u.size(), 0, static_cast<double>(u.size() - 1)).array().square()).sin();
@@ -156,7 +156,7 @@ TEST(script_estimators, srivc_reports_the_diagnostics_of_the_cpp_function) {
                           fit.theta[0], std[0], fit.theta[1], std[1], fit.theta[2], std[2]));
 }
 
-// Oracle: the constant that was put into the record.
+// Oracle: the constant that was added to the data.
 TEST(script_estimators, message_names_the_start_that_is_chosen) {
     const std::string record =
         "rng(1)\nlocal u = prbs(7, 8)\n"

@@ -12,7 +12,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-/// A record of 2/(s^2 + 0.8 s + 3) with noise, and a model of it.
+/// Data of 2/(s^2 + 0.8 s + 3) with noise, and a model of it.
 const std::string kRecord = R"(
 rng(1)
 local u = prbs(5, 8)

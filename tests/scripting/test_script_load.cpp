@@ -1,4 +1,4 @@
-// What scripts see of data files. Oracle: what stands in the files.
+// Data files as scripts see them. Oracle: the content of the files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

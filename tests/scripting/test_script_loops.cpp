@@ -1,5 +1,5 @@
-// Records in closed loop and recursive estimation from scripts. Oracles: how the records were made, and the same
-// estimation by another function.
+// Closed-loop data and recursive estimation from scripts. Oracles: how the data were made, and the same estimation by
+// another function.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Rigs that move, from scripts. Oracle: the drawings as documents show them, and sentences by hand.
+// Animated plants, from scripts. Oracle: the drawings as documents show them, and sentences by hand.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

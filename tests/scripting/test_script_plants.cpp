@@ -55,7 +55,7 @@ std::string point_of(const std::string& page, const std::string& head) {
     return page.substr(at, std::min(page.find("\n- ", at + 1), page.find("\n#", at + 1)) - at);
 }
 
-// oracle: the table of rigs, the fields of its truths and the names of its experiments
+// oracle: the plant catalog, the fields of its true models and the names of its experiments
 TEST(script_plants, stand_in_the_help_pages) {
     const std::string rig_page = page_text(*find_help_page("rig"), find_function("rig")),
                       truth_page = page_text(*find_help_page("rig_truth"), find_function("rig_truth"));
@@ -70,7 +70,7 @@ TEST(script_plants, stand_in_the_help_pages) {
     }
 }
 
-// oracle: the fields of the records themselves
+// oracle: the fields of the data sets
 TEST(script_plants, are_described_by_the_signals_that_their_records_have) {
     EXPECT_EQ(printed("local function count(t) local n = 0; for _ in pairs(t) do n = n + 1 end; return n end\n"
                       "for name, about in pairs(rig()) do\n"

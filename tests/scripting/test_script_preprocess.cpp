@@ -1,4 +1,4 @@
-// Preparing records in scripts. Oracle: definitions; what is misused is refused with the remedy.
+// Data preparation in scripts. Oracle: definitions; the message about a misuse gives the remedy.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

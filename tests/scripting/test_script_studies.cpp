@@ -1,4 +1,4 @@
-// Oracle: how the records were made, and the same estimation called one by one.
+// Oracle: how the data were made, and the same estimations called separately.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -139,7 +139,7 @@ TEST(script_studies, arx_orders_are_chosen_and_go_on_to_arx) {
     EXPECT_THAT(error_of(record + "selstruc(3)"), HasSubstr("the result of arxstruc"));
 }
 
-// Oracle: srivc() with Integration, called by itself.
+// Oracle: a separate call of srivc() with Integration.
 TEST(script_studies, structures_may_have_an_integrator) {
     EXPECT_THAT(printed("local u = prbs(7, 8)\nlocal x = lsim(tf({3}, {1, 2, 0}), u, 0.05)\n"
                         "local data = iddata(x + 0.05*randn(#u), u, 0.05)\n"

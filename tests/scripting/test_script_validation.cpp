@@ -1,4 +1,4 @@
-// Oracle: how the records were made.
+// Oracle: how the data were made.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

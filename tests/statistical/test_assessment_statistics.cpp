@@ -71,7 +71,8 @@ void expect_honest_errors(const TwoOutputs& system) {
             << runs.spread[i];
 }
 
-/// The crane's estimation record, its voltage integrated (exactly, with foh), counted from the rest it begins with.
+/// The crane's estimation data. The voltage is integrated (exactly, with foh); the outputs are relative to the initial
+/// rest.
 IdData crane_record(std::uint32_t seed) {
     constexpr Index kRest = 50;
     const CraneExperiments experiments;
@@ -98,7 +99,7 @@ TEST(assessment_statistics, robust_errors_are_the_scatter_where_outputs_have_a_d
 using Noise = Vector (*)(Index, std::uint32_t);
 using Method = Fit (*)(const IdData&, const TransferStructure&);
 
-/// The share of 95 % intervals that hold the true value: 200 records of 1500 samples, 10 dB.
+/// The share of 95 % intervals that contain the true value: 200 data sets of 1500 samples, 10 dB.
 double coverage_of(Method method, Noise noise, bool robust, double Ts = kTs) {
     const TransferStructure structure = TransferStructure::single(2, 0);
     const Vector theta = values({1.2, 4, 4}), u = prbs(8, static_cast<int>(std::lround(0.3 / Ts))).head(1500);

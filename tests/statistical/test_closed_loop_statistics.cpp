@@ -1,5 +1,5 @@
-// Oracle: the truth. 500 records of a loop with colored noise: the means of consistent methods lie within three
-// standard errors of it, those of the direct least squares are off by more than ten, but for a2.
+// Oracle: the true values. 500 data sets of a loop with colored noise: the means of consistent methods are within three
+// standard errors of the true values. Direct least squares is off by more than ten, except for a2.
 #include <gtest/gtest.h>
 
 #include "numerics/estimators/closed_loop/clivsvf.h"

@@ -97,8 +97,8 @@ TEST(frequency_statistics, distortion_of_odd_lines_is_found_at_lines_without_inp
     EXPECT_LT(found.even.power.sum(), 1e-20);
 }
 
-// The errors of distortion are uncorrelated between lines and yet not independent: taken as independent they would
-// be 1.5 times too small for the gain (oracle: the scatter over the records, known to 4 %).
+// The errors of distortion are uncorrelated between lines but not independent: taken as independent, they would be 1.5
+// times too small for the gain (oracle: the scatter over the data sets, known to 4 %).
 TEST(frequency_statistics, errors_with_distortion_are_those_of_the_scatter) {
     constexpr int kRuns = 250, kRealizations = 10;
     constexpr double kTs = 0.05, kCube = 0.1, kNoise = 0.01;

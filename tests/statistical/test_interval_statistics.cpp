@@ -1,5 +1,5 @@
-// How often intervals hold the truth. Oracle: the system put in, 500 records of 124 samples with seeds 1..500; the
-// share of a 95 % interval has a standard error of 1 %.
+// How often intervals contain the true value. Oracle: the simulated system, 500 data sets of 124 samples with seeds
+// 1..500; the share of a 95 % interval has a standard error of 1 %.
 #include <gtest/gtest.h>
 
 #include <cmath>

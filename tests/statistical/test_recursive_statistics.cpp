@@ -1,5 +1,5 @@
-// Oracle: the truth. The means over 200 records with noise: recursive instrumental variables end within three standard
-// errors of it, recursive least squares more than ten away.
+// Oracle: the true values. The means over 200 data sets with noise: recursive instrumental variables end within three
+// standard errors of the true values, recursive least squares more than ten away.
 #include <gtest/gtest.h>
 
 #include "numerics/estimators/recursive/rivsvf.h"
@@ -36,7 +36,7 @@ TEST(recursive_statistics, least_squares_are_biased) {
     EXPECT_GT(bias.cwiseAbs().minCoeff(), 10) << bias.transpose();
 }
 
-/// Within three standard errors of the truth, and with errors that tell the scatter.
+/// The bias is within three standard errors, and the reported errors match the scatter.
 void expect_consistent(const EstimatorStudy& study) {
     EXPECT_LT(study.bias.cwiseAbs().maxCoeff(), 3) << study.bias.transpose();
     EXPECT_GT(study.reported.minCoeff(), 0.7) << study.reported.transpose();
@@ -54,7 +54,7 @@ TEST(recursive_statistics, refined_ones_are_not_either) {
     expect_consistent(study_with(rsrivc));
 }
 
-/// Root mean square of errors in reported standard errors, over both parameters, the records and the history behind 50
+/// Root mean square of errors in reported standard errors, over both parameters, the data sets and the history after 50
 /// s.
 template <class Method>
 double errors_in_standard_errors(const Method& method, double forgetting, std::uint32_t records) {
@@ -79,8 +79,8 @@ TEST(recursive_statistics, standard_errors_match_the_scatter_of_any_memory) {
     for (const double forgetting : {0.95, 0.99, 0.999}) {
         const std::uint32_t records = forgetting > 0.99 ? 60 : 20;  // hold more than a hundred independent values each
         EXPECT_NEAR(errors_in_standard_errors(rsrivc, forgetting, records), 1, 0.15) << "rsrivc, " << forgetting;
-        // Its equation errors are colored, which makes it up to a quarter more precise than white ones would: of that
-        // so few blocks may tell half (product_color.h).
+        // The equation errors of rivsvf are colored, which makes it up to a quarter more precise than white errors
+        // would. From so few blocks, it may detect half of that (product_color.h).
         const double errors = errors_in_standard_errors(rivsvf, forgetting, records);
         EXPECT_GT(errors, 0.75) << "rivsvf, " << forgetting;
         EXPECT_LT(errors, 1.15) << "rivsvf, " << forgetting;

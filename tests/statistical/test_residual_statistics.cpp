@@ -42,7 +42,7 @@ Rates rejection_rates(const Vector& u, double pole, const ResidualOptions& optio
 }
 
 // 1 % of 1000 runs has a standard deviation of 0.3 %. The far tail of Ljung and Box's statistic is a little heavier
-// than that of chi-squared for a finite record (Ljung 1986), up to about twice the level here.
+// than the tail of chi-squared for finite data (Ljung 1986), up to about twice the level here.
 TEST(residual_statistics, white_errors_are_rejected_as_often_as_promised) {
     for (const Vector& u : {prbs(7, 8), prbs(4, 100), Vector(RandomStream(99).normal(800))}) {
         const Rates rates = rejection_rates(u, 0);
@@ -54,8 +54,8 @@ TEST(residual_statistics, white_errors_are_rejected_as_often_as_promised) {
     }
 }
 
-// 5 % of 1000 runs has a standard deviation of 0.7 %. Errors that Ljung and Box's test wrongly rejects as white are
-// judged with a covariance estimated from so few samples that they hardly ever show a dependence: up to 5 % of 5 %.
+// 5 % of 1000 runs has a standard deviation of 0.7 %. If Ljung and Box's test wrongly rejects errors as white, the
+// covariance comes from so few samples that the test rarely shows a dependence: up to 5 % of 5 %.
 TEST(residual_statistics, short_records_are_rejected_as_often_as_promised) {
     for (const Index N : {50, 100, 200}) {
         const Rates rates = rejection_rates(RandomStream(99).normal(N), 0, {25, 0.95});

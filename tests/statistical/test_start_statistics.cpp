@@ -1,5 +1,5 @@
-// What the default options make of records that do not begin at rest. Oracles: the systems that the records were made
-// of; the search that is told how the record begins.
+// The default options with data that do not begin at rest. Oracles: the systems that made the data, and the search with
+// the true start condition.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -76,7 +76,7 @@ bool near_truth(const Fit& fit, const TransferFunction& G) {
     return std::abs(found.dc_gain() / G.dc_gain() - 1) < 0.25 && std::abs(found.den()[2] / G.den()[2] - 1) < 0.35;
 }
 
-/// Of the sixty systems, those that `method` does not find as well as when it is told how the record begins.
+/// Of the sixty systems, those that `method` finds less well than with the true start condition.
 template <class Method>
 std::string missed_by(const Method& method, int& missed) {
     std::string which;
@@ -111,7 +111,7 @@ TEST(start_statistics, srivc_finds_them_without_a_delay_to_look_for) {
     EXPECT_LE(missed, kMaxMisses);
 }
 
-// Oracle: the fit that is told that the record begins at rest, which stays the result to the last digit.
+// Oracle: the fit that starts from rest. The default fit equals this fit to the last digit.
 TEST(start_statistics, records_from_rest_stay_at_rest) {
     int moved = 0;
     for (std::uint32_t seed = 1; seed <= 2 * kSystems; ++seed) {
@@ -137,7 +137,7 @@ TEST(start_statistics, colored_errors_seldom_move_the_start) {
     EXPECT_LE(moved, 6);
 }
 
-// Oracle: what was put into the records of a difference equation.
+// Oracle: the values put into the data of a difference equation.
 TEST(start_statistics, oe_finds_how_records_of_difference_equations_begin) {
     int wrong = 0;
     for (std::uint32_t seed = 1; seed <= kSystems; ++seed) {

@@ -13,10 +13,10 @@
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
 
-// Records of random systems with nothing wrong, and with one planted fault each, for statistics of findings.
+// Data sets of random systems without a fault, and with one planted fault each, for statistics of the issues found.
 namespace dynlab::test {
 
-/// What chance decides in one record: a system with bandwidth 1 rad/s, its sampling, its noise.
+/// The random choices of one data set: a system with bandwidth 1 rad/s, its sampling, its noise.
 struct RandomExperiment {
     RandomStream random;
     TransferFunction G;
@@ -182,7 +182,7 @@ inline IdData long_record(std::uint32_t seed) {
     return record_of(chance, u, lsim(chance.G, u, chance.Ts));
 }
 
-/// A record with a fault that `spoil` makes of the noise-free output, and the noise.
+/// Data with noise and a fault that `spoil` puts into the input or the noise-free output.
 inline IdData spoilt_record(std::uint32_t seed, bool many_levels,
                             const std::function<void(RandomExperiment&, Vector& u, Vector& x)>& spoil) {
     RandomExperiment chance = random_experiment(seed);
@@ -398,7 +398,7 @@ inline IdData loaded_integrator_record(std::uint32_t seed) {
 struct CorpusKind {
     std::string name;
     std::function<IdData(std::uint32_t seed)> record;
-    std::vector<std::string> codes;  ///< of which one must be found; none for clean records
+    std::vector<std::string> codes;  ///< one of them must be found; none for clean data
 };
 
 inline std::vector<CorpusKind> clean_kinds() {

@@ -4,9 +4,9 @@
 
 namespace dynlab::test {
 
-/// A window of a Chromium that nobody sees, driven by chromedriver over HTTP (W3C WebDriver). A Chromium serves one
-/// Browser after another: each begins with a new window and without cookies, stored data and cached responses. Two
-/// that live at the same time have a Chromium each.
+/// An invisible window of a Chromium, driven by chromedriver over HTTP (W3C WebDriver). A Chromium serves Browser
+/// objects in sequence: each begins with a new window and without cookies, stored data and cached responses. Two
+/// objects that live at the same time have a Chromium each.
 class Browser {
   public:
     enum class Kind { kWithoutDesktop, kWhole };  ///< what pages do is the same in both
@@ -21,11 +21,11 @@ class Browser {
     void click(const std::string& selector);
     void new_tab();
     void prefer_dark();  ///< as a system with a dark desktop does
-    /// What hands do, as WebDriver's "actions" list in JSON: pointers, wheels and keys.
+    /// The user's actions, as WebDriver's "actions" list in JSON: pointers, wheels and keys.
     void act(const std::string& actions);
     /// A command of Chromium's own protocol, its parameters in JSON; gives the JSON of its result.
     std::string devtools(const std::string& command, const std::string& parameters);
-    /// Writes what is to be seen as a PNG picture.
+    /// Writes the visible page as a PNG picture.
     void photograph(const std::string& file);
 
     /// Ends the Chromiums that no Browser uses now. A program calls it before it exits, where tests do not: the library

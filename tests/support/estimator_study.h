@@ -13,7 +13,7 @@ struct EstimatorStudy {
     Vector reported;      ///< root mean square of the standard errors, relative to the scatter
 };
 
-/// `estimate(seed)` gives the Fit of record 1, 2, ..., `records`.
+/// `estimate(k)` returns the Fit of data set k, counted from 1.
 template <class Estimate>
 EstimatorStudy study_of(int records, const Vector& truth, const Estimate& estimate) {
     Matrix theta(records, truth.size()), std(records, truth.size());

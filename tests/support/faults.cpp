@@ -1,12 +1,11 @@
-// Loaded before the C library (LD_PRELOAD), to try what a program leaves behind when the machine fails it. The calls
-// that change files, folders aside from pipes and terminals, are counted; fsync is none of them, as whoever is killed
-// before it leaves the same behind as who is killed before the change that follows. FAULT says what happens at which:
+// Loaded before the C library (LD_PRELOAD), to test what a program leaves behind when the machine fails. The library
+// counts the calls that change files or folders, but not pipes and terminals. It does not count fsync: a kill before
+// fsync leaves the same behind as a kill before the next change. FAULT names the fault and the call:
 //
-//   kill 7    the process is killed before the seventh
-//   full 7    from the seventh on the disk is full
+//   kill 7    the process is killed before the seventh call
+//   full 7    the disk is full from the seventh call on
 //
-// What was counted is written into the file that FAULT_COUNT names, when the process ends by itself. Programs that it
-// starts are left alone.
+// On a normal exit, the library writes the count to the file that FAULT_COUNT names. It leaves child programs alone.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/stat.h>

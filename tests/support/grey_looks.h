@@ -15,7 +15,7 @@
 
 namespace dynlab::test {
 
-/// Less is hardly told apart: 0 are equal looks.
+/// Looks with a smaller difference are hard to distinguish: 0 means equal looks.
 inline constexpr double kSeenInGrey = 0.3;
 
 /// A panel of a straight line in the look of one of a panel's curves; the others lie outside. Negative: none.
@@ -70,7 +70,7 @@ class GreyLooks {
             const bool band = curve.style == CurveStyle::kBand;
             if (of == Of::kBands ? band : !curve.label.empty() && !band) named.push_back(i);
         }
-        if (named.size() < 2) return;  // nothing to be told apart
+        if (named.size() < 2) return;  // no looks to distinguish
         named.push_back(-1);
         for (const int i : named) renderer.draw(line_in_the_look_of(panel, i), file(i), FigureFormat::kPdf);
         renderer.finish();

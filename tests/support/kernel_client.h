@@ -49,7 +49,7 @@ class KernelClient {
         heartbeat_.connect("ipc://" + base + "-5");
         iopub_.set(zmq::sockopt::subscribe, "");
         iopub_.connect("ipc://" + base + "-2");
-        // Until the subscription stands, what all hear is lost.
+        // Messages to all clients are lost until the subscription is active.
         for (int i = 0; i < 200; ++i) {
             const std::string id = ask("kernel_info_request");
             if (!reply_to(id, 10'000)) break;

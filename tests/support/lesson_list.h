@@ -21,7 +21,7 @@ inline std::vector<std::string> lesson_slugs() {
     return names;
 }
 
-/// Those that end with a report of a form of its own, or the others, by the header's `template`.
+/// The lessons that end with a special report, or the others, by the header's `template`.
 inline std::vector<std::string> lesson_slugs(bool with_report) {
     std::vector<std::string> names;
     for (const std::string& name : lesson_slugs()) {
@@ -38,8 +38,8 @@ inline std::filesystem::path lesson_folder(const std::string& lesson) {
     return std::filesystem::path(DYNLAB_SOURCE_DIR) / "lessons" / lesson;
 }
 
-/// A lesson's worked solution. Repeated experiments, where it makes any, take most of its time and lead to no answer
-/// (tests/course/test_lesson_checks.cpp): there are two.
+/// A lesson's reference solution with only two repeated experiments. These take most of its time and lead to no answer
+/// (tests/course/test_lesson_checks.cpp).
 inline std::string quick_solution_of(const std::string& lesson) {
     static const std::regex repetitions("\nlocal repetitions = \\d+\n");
     const std::string script = read_file(lesson_folder(lesson) / "lesson.lua");

@@ -21,8 +21,8 @@ namespace dynlab::test {
 /// The program that serves a page, as a user starts it.
 class PageProgram {
   public:
-    /// `words`: the command and what follows it. A cache of its own unless one is named, with the formats of LaTeX that
-    /// tests have made.
+    /// `words`: the command and its arguments. Without `cache`, the program has a separate cache with the formats of
+    /// LaTeX that tests have made.
     explicit PageProgram(std::vector<std::string> words, const std::filesystem::path& cache = {},
                          const std::filesystem::path& folder = {}) {
         const std::filesystem::path address = out.path() / "address";
@@ -53,7 +53,7 @@ class PageProgram {
         process_ = 0;
         keep_formats(out.path());
     }
-    /// The processes that run scripts stand still until `go_on`, however long a browser takes meanwhile.
+    /// Stops the processes that run scripts until `go_on`, however long a browser takes meanwhile.
     void hold() const {
         for (std::size_t held = 0;; held = runners().size()) {
             for (const pid_t runner : runners()) ::kill(runner, SIGSTOP);
@@ -64,7 +64,7 @@ class PageProgram {
         for (const pid_t runner : runners()) ::kill(runner, SIGCONT);
     }
     const std::string& address() const { return address_; }
-    /// The one that is printed for somebody who comes with the first after it was used.
+    /// The address that the program prints for the next client, after the first address was used.
     std::string next_address() const {
         PageClient::client_of(PageClient::host_of(address_)).Get(address_.substr(address_.find("/?")));
         return printed_address(1);

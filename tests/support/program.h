@@ -13,11 +13,12 @@ void lend_formats(const std::filesystem::path& cache);
 /// Those that were made in such a cache, for later tests; the first of two wins.
 void keep_formats(const std::filesystem::path& cache);
 
-/// An empty folder in which the built program is run as a user would run it, with a cache of its own.
+/// An empty folder in which the built program runs as for a user, with a separate cache.
 class Workbench {
   public:
-    /// kShared: what lessons computed once is recalled by other tests of this build, as by a user's second run.
-    /// kOwn: nothing is, but the formats of LaTeX, which take a second to make and are named after all that makes them.
+    /// kShared: other tests of this build use the cached results of lessons, as a user's second run does.
+    /// kOwn: only the formats of LaTeX are shared. They take a second to make, and their names contain all that makes
+    /// them.
     enum class Memory { kOwn, kShared };
 
     std::filesystem::path path(const std::string& name = "") const { return folder_.path() / "work" / name; }

@@ -14,10 +14,10 @@
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
 
-// Random systems and their records, for statistics of searches: whether the smallest simulation error is found.
+// Random systems and their data, for statistics of searches: whether a search finds the smallest simulation error.
 namespace dynlab::test {
 
-/// A record whose system is known.
+/// A data set whose system is known.
 struct SearchCase {
     TransferFunction G;
     int poles = 1, zeros = 0;

@@ -11,7 +11,7 @@ namespace dynlab::test {
 
 inline constexpr const char *kControlC = "\x03", *kControlD = "\x04";
 
-/// The program on a pseudo-terminal of its own, as a student sees it.
+/// The program on a separate pseudo-terminal, as a student sees it.
 class Terminal {
   public:
     explicit Terminal(const Workbench& bench, const std::vector<std::string>& arguments = {});

@@ -8,7 +8,7 @@
 
 namespace dynlab::test {
 
-/// A record of tests/reference/data with columns t, u, y.
+/// A data set of tests/reference/data with columns t, u, y.
 inline IdData reference_record(const std::string& name, double Ts) {
     const auto columns = reference_columns(name + ".csv");
     const auto &y = columns.at("y"), &u = columns.at("u");

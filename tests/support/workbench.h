@@ -14,7 +14,7 @@
 
 namespace dynlab::test {
 
-/// A session of `dynlab app` in a folder of its own, and what hands do on its page.
+/// A session of `dynlab app` in a separate folder, and the user's actions on its page.
 class workbench_page : public testing::Test {
   protected:
     std::filesystem::path file(const std::string& name) const { return folder.path() / name; }
@@ -26,7 +26,7 @@ class workbench_page : public testing::Test {
         words.insert(words.end(), options.begin(), options.end());
         return std::make_unique<PageProgram>(words, std::filesystem::path(), folder.path());
     }
-    /// A second-order plant with noise, as a stranger's CSV file.
+    /// A second-order plant with noise, as a user's CSV file.
     void write_record(const std::string& name = "plant.csv") const {
         std::ofstream out(file(name));
         out << "time (s),valve (%),level (cm)\n";
@@ -44,7 +44,7 @@ class workbench_page : public testing::Test {
         return browser.becomes_true(
             "['up to date', 'à jour', 'stopped at an error'].includes(document.getElementById('state').textContent)");
     }
-    /// Opens a session of the record of write_record() and waits for its picture.
+    /// Opens a session of the data of write_record() and waits for its picture.
     std::unique_ptr<PageProgram> open(Browser& browser) const {
         write_record();
         auto program = app("plant.csv");
@@ -53,7 +53,7 @@ class workbench_page : public testing::Test {
         EXPECT_TRUE(is_ready(browser));
         return program;
     }
-    /// Clicks the button with these words that is to be seen; false where there is none.
+    /// Clicks the visible button with these words. Returns false if there is none.
     static bool press(Browser& browser, const std::string& words) {
         return browser.becomes_true(
             "(() => { const found = [...document.querySelectorAll('button')].find((one) => one.textContent.trim() === "

@@ -86,7 +86,7 @@ TEST(web_lessons, refuse_more_memory_than_there_is_in_a_sentence) {
     EXPECT_THAT(text_of(browser, "[data-cell=times] .failure"), testing::HasSubstr("memory"));
 }
 
-/// What the page makes of the folder as it stands, as base64.
+/// The archive that the page makes of the current folder, as base64.
 std::string pack_of_page(Browser& browser) {
     const std::string made = browser.evaluate(
         "return (async () => { const { session } = await import('../../page/session.js'), store = await "

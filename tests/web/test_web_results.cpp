@@ -112,7 +112,8 @@ TEST(web_numbers, whole_numbers_beyond_an_index_are_those_of_the_native_program)
     expect_alike(json::parse(bench.read("out/record.json"))["outputs"], web["results"]["outputs"], "outputs");
 }
 
-/// Natively they earn all points (tests/course), also on the reruns' records, whose seeds are large and small.
+/// In the native program, the solutions earn all points (tests/course), also on the data of the reruns, whose seeds are
+/// large and small.
 TEST(web_checks, worked_solutions_earn_all_points) {
     SKIP_WITHOUT_WEB_ENGINE();
     const Workbench bench;

@@ -39,7 +39,7 @@ TEST(languages, missing_and_broken_catalogs_fall_back_to_english_with_a_reason) 
     EXPECT_EQ(catalog_of("yy"), nullptr);
     const std::string reported = testing::internal::GetCapturedStderr();
     EXPECT_THAT(reported, testing::StartsWith("dynlab: note: yy.po, line 1"));
-    EXPECT_EQ(std::count(reported.begin(), reported.end(), '\n'), 1);  // told once
+    EXPECT_EQ(std::count(reported.begin(), reported.end(), '\n'), 1);  // reported once
     EXPECT_THAT(missing_catalog("yy"), HasSubstr("yy.po, line 1"));
     EXPECT_EQ(message_text(Message("a {}", 1), {catalog_of("yy")}), "a 1");
 }

@@ -38,7 +38,7 @@ TEST(state_feedback, of_a_double_integrator_is_the_textbook_one) {
 }
 
 TEST(state_feedback, minimises_the_cost_of_the_way_from_any_state) {
-    // K = R^-1 B'P for the P of its own cost, which solves A_c'P + P A_c + Q + K'R K = 0
+    // K = R^-1 B'P for the P of this K's cost, which solves A_c'P + P A_c + Q + K'R K = 0
     const Trolley system;
     const Matrix Q = Vector{{100, 1, 50, 0}}.asDiagonal(), R = one(0.1);
     const Matrix K = linear_quadratic_regulator(system.A, system.B, Q, R).K;

@@ -76,7 +76,7 @@ TEST(discrete_output, sensitivities_are_derivatives) {  // oracle: central diffe
     }
 }
 
-TEST(discrete_output, a_steady_start_has_a_constant_past) {  // oracle: a longer record with a constant beginning
+TEST(discrete_output, a_steady_start_has_a_constant_past) {  // oracle: longer data with a constant beginning
     auto list = experiments();
     list.resize(1);
     const DiscreteOutput model(kOrders, {InitialState::kSteady, false}, list);
@@ -88,7 +88,7 @@ TEST(discrete_output, a_steady_start_has_a_constant_past) {  // oracle: a longer
     EXPECT_LT(worst(output, all.tail(40)), 1e-10);
 }
 
-TEST(discrete_output, initial_values_hold_any_past) {  // oracle: a record cut from a longer one
+TEST(discrete_output, initial_values_hold_any_past) {  // oracle: data cut from a longer signal
     Matrix u(90, 2);
     u << random_levels(90, 3, 1), random_levels(90, 5, 2);
     const Vector y = model_output(PolynomialModel(kOrders, kModel, 1), u, Vector::Zero(90));

@@ -55,7 +55,7 @@ TEST(rate_equations, weak_ones_hold_for_an_exponential) {  // oracle: dx/dt = -2
     EXPECT_LT((equations.Theta * -2 - equations.B).cwiseAbs().maxCoeff() / equations.B.cwiseAbs().maxCoeff(), 1e-10);
 }
 
-TEST(rate_equations, weak_ones_know_that_inputs_are_held) {  // oracle: dx/dt = u exactly, x on straight lines
+TEST(rate_equations, weak_ones_know_that_inputs_are_held) {  // oracle: dx/dt = u exactly, x interpolated
     const Index N = 200;
     Matrix u(N, 1), x(N, 1);
     x(0, 0) = 0;

@@ -14,7 +14,7 @@ using namespace dynlab;
 
 constexpr ResponseKernel kAll[] = {ResponseKernel::kTc, ResponseKernel::kDc, ResponseKernel::kSs};
 
-/// A record of 100 samples as all its equations.
+/// All equations of a data set of 100 samples.
 struct Dense {
     Matrix Phi;
     Vector y;

@@ -1,4 +1,4 @@
-// What a command hands to the program that runs it. Oracle: the messages that were written.
+// The messages of a command to the program that runs it. Oracle: the messages that were written.
 #include "data_io/values/command_messages.h"
 
 #include <gtest/gtest.h>

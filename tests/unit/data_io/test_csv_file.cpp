@@ -47,7 +47,7 @@ class csv_file : public testing::Test {
     std::filesystem::path file_ = folder_.path() / "x.csv";
 };
 
-// Oracle of all readings: what stands in the text.
+// Oracle of all readings: the content of the text.
 TEST_F(csv_file, reads_comments_names_numbers_and_texts) {
     const CsvTable table = read(
         "# title: step: first\n# unit t: s\n# unit y: deg C\n# Ts: 0.01\n# a plain remark\n\n"
@@ -156,7 +156,7 @@ std::string shown_table(const CsvTable& table) {
     return text;
 }
 
-// Every separator with every form of number that goes with it tells the same table.
+// Every separator with every number format that goes with it gives the same table.
 TEST_F(csv_file, finds_the_separator) {
     const std::string expected = "t|u|y\n0|-1|2.5\n0.1|1e-05|3\n0.2|3|-4.5";
     for (const char* text :

@@ -193,13 +193,13 @@ TEST_F(dataset_index, packages_are_named_by_the_installation_only) {
         write_file_atomically(mine / "SOURCE.md", source(file));
         EXPECT_THAT(complaint("kiln"), HasSubstr("unknown data set \"kiln\""));
     }
-    // A copy of an installed data set, as a lesson's bundle holds it, still stands for the installed one.
+    // A copy of an installed data set, as in a lesson's bundle, still refers to the installed one.
     fs::create_directories(home_.path() / "data/kiln");
     write_file_atomically(home_.path() / "data/kiln/SOURCE.md", source("/nowhere/kiln.gz"));
     EXPECT_THAT(complaint("kiln"), HasSubstr("this data set is part of the Debian package no-kilns-here"));
 }
 
-// oracle: the file that the links lead to, which can be read where nobody is graded
+// oracle: the file that the links point to, which is readable outside of grading
 TEST_F(dataset_index, links_lead_a_graded_script_nowhere) {
     write_mat(project_.path() / "elsewhere.mat", 9);
     fs::create_symlink(project_.path() / "elsewhere.mat", scripts_.path() / "link.mat");
@@ -257,7 +257,7 @@ TEST(robot_arm, holds_the_facts) {
     EXPECT_EQ(std::get<double>(data.variables.at("Ts").value), 1);
 }
 
-// Facts: 30 Games from 1896 to 2024, none in 1916, 1940 and 1944; automatic timing since 1968; records of 1968 and
+// Facts: 30 Games from 1896 to 2024, none in 1916, 1940 and 1944; automatic timing since 1968; best times of 1968 and
 // 2012.
 TEST(winning_times, hold_the_facts) {
     const LoadedData data = load_data("winning_time.mat", "/");

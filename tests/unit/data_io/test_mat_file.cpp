@@ -251,7 +251,7 @@ TEST_F(mat_file, reports_where_a_table_is) {
     EXPECT_EQ(left_out.size(), 1u);
 }
 
-// Oracle: the variables that were written; the one of three dimensions stands between them.
+// Oracle: the variables that were written; the three-dimensional variable is between them.
 TEST_F(mat_file, an_unreadable_variable_does_not_block_the_others) {
     std::size_t size[3] = {1, 2, 2};
     std::vector<double> numbers = {1, 2, 3, 4};
@@ -278,7 +278,8 @@ TEST_F(mat_file, an_unreadable_variable_does_not_block_the_others) {
     }
 }
 
-// Oracle: the file that the link leads to holds 41, 42, 43; tests/reference/data/README.md tells how both were made.
+// Oracle: the file that the link points to contains 41, 42, 43; tests/reference/data/README.md explains how both were
+// made.
 TEST_F(mat_file, a_link_to_another_file_is_not_followed) {
     const std::filesystem::path data = DYNLAB_SOURCE_DIR "/tests/reference/data";
     std::filesystem::copy_file(data / "external_link.mat", file_);
@@ -383,8 +384,7 @@ TEST_F(mat_file, a_full_disk_leaves_the_old_file) {
     EXPECT_THROW(write_mat_file(folder_.path() / "none/x.mat", large), EnvironmentError);
 }
 
-// Wherever the room ends, what is there afterwards is the old file, whole: libmatio does not tell of every failed
-// write.
+// Wherever the disk becomes full, the old file remains, complete: libmatio does not report every failed write.
 TEST_F(mat_file, no_place_where_a_disk_fills_up_is_passed_over) {
     VariableTable many = sample_variables();
     many["noise"] = {Vector(Vector::Random(30000))};
@@ -423,7 +423,7 @@ TEST_F(mat_file, small_files_of_many_values_are_refused) {
     EXPECT_THAT(message, testing::Not(HasSubstr("damaged")));
 }
 
-// Oracle: what libmatio wrote. Such records come from digital oscilloscopes.
+// Oracle: the values that libmatio wrote. Digital oscilloscopes produce such data.
 TEST_F(mat_file, long_records_of_short_integers_are_read) {
     constexpr std::size_t kCount = 8'000'000;
     const auto expect_read = [this] {

@@ -122,7 +122,7 @@ TEST_F(workbook, is_read_as_a_table) {
     }
 }
 
-// Oracle: the sentence that the process of its own wrote, with the arguments of this file.
+// Oracle: the sentence that the separate process wrote, with the arguments of this file.
 TEST_F(workbook, refusal_is_a_message_that_can_be_translated) {
     write(parts_of(kRows));
     try {

@@ -62,7 +62,7 @@ TEST(chunks, know_where_they_come_from) {
     EXPECT_EQ(chunks[1].last_line, 4);
 }
 
-/// Whatever somebody writes: a line of any length is a chunk, and marks beside it keep their meaning.
+/// For any text: a line of any length is a chunk, and marks beside it keep their meaning.
 TEST(chunks, take_lines_of_any_length) {
     for (const char filling : {'a', ' ', '-', '`', ':', '~', '.'}) {
         const std::string line = "x" + std::string(1'000'000, filling) + "x";

@@ -1,5 +1,5 @@
-// What pages draw figures from. Oracles: the samples given; per column of the frame, the extremes of all samples; the
-// places that gnuplot is told for the printed figure.
+// The data from which pages draw figures. Oracles: the samples given; per column of the frame, the extremes of all
+// samples; the places that gnuplot gets for the printed figure.
 #include "documents/html/plot_data.h"
 #include "figures/figure.h"
 

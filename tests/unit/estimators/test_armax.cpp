@@ -139,7 +139,7 @@ TEST(armax, refuses_what_it_cannot_fit) {  // oracle: definitions
     EXPECT_THAT(refusal(constant, kOrders), HasSubstr("armax: the input u1 is not persistently exciting enough"));
 }
 
-/// Oracle: the search over all samples from the truth. The second record says next to nothing in its first quarter.
+/// Oracle: the search over all samples from the truth. The first quarter of the second data set shows next to nothing.
 TEST(armax, long_records_end_where_the_search_from_the_truth_ends) {
     constexpr Index kLong = 420000;
     Vector u = random_levels(kLong, 2, 7);

@@ -98,7 +98,7 @@ TEST(arx, several_inputs_and_experiments) {  // oracle: second route, orthogonal
 }
 
 TEST(arx, nearly_dependent_regressors_go_the_orthogonal_way) {  // oracle: the simulated system
-    // Fast sampling: successive outputs hardly differ, and the Gram matrix would lose eight digits of the truth.
+    // Fast sampling: successive outputs are almost equal, and the Gram matrix would lose eight digits of the truth.
     const TransferFunction G = c2d(TransferFunction(Vector{{2}}, Vector{{1, 4, 3}}), 1e-4);
     Vector truth(4);
     truth << G.den().tail(2), G.num();
@@ -152,7 +152,7 @@ TEST(arx, refuses_poor_inputs_and_is_right) {
     EXPECT_THAT(refusal(sine, PolynomialOrders::arx(1, {3}, {1})),
                 HasSubstr("not persistently exciting enough to determine nb = 3"));
     EXPECT_EQ(refusal(sine, PolynomialOrders::arx(1, {2}, {1})), "");
-    // Justified: other coefficients explain the same record equally well.
+    // Justified: other coefficients explain the same data equally well.
     const auto [Phi, y] = equations(sine, e, PolynomialOrders::arx(1, {3}, {1}));
     const Vector alternative{{0, 1, -2 * std::cos(0.3), 1}};
     EXPECT_LT((Phi * alternative).cwiseAbs().maxCoeff(), 1e-12);

@@ -107,8 +107,8 @@ TEST(bj, scatters_as_its_standard_errors_say_and_less_than_oe) {
     }
 }
 
-/// Oracle: the search over all samples from the truth. The second record's input is silent in its first quarter, from
-/// which nothing can be learnt; the third one's noise is thirty times larger there.
+/// Oracle: the search over all samples from the truth. The input of the second data set is silent in its first quarter,
+/// which carries no information. The noise of the third data set is thirty times larger there.
 TEST(bj, long_records_end_where_the_search_from_the_truth_ends) {
     constexpr Index kLong = 420000, kQuarter = kLong / 4;
     for (const char* kind : {"even", "silent", "noisy"}) {

@@ -131,7 +131,7 @@ TEST(coe, two_inputs_with_their_own_poles_are_recovered) {  // oracle: a publish
                       3);
 }
 
-// oracle: the simulated system; a record cut from a running experiment, on another level
+// oracle: the simulated system; data cut from a running experiment, on another level
 TEST(coe, initial_state_and_offset_are_recovered_and_chosen) {
     const Vector u = prbs(7, 8);
     const Vector x = lsim(TransferFunction(values({5}), values({1, 0.6, 9})), u, 0.05);

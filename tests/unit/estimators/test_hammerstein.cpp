@@ -22,7 +22,7 @@ using testing::Not;
 const Vector kEdges{{-1, -0.2, 0.2, 1}};
 const Vector kLevels{{-1.6, 0.1, 0.1, 2.1}};  // a dead band, and a smaller gain backwards
 
-/// Dead band from -0.2 to 0.2, gains 2.125 and 2.5, on straight lines.
+/// Piecewise linear: dead band from -0.2 to 0.2, gains 2.125 and 2.5.
 Vector characteristic(const Vector& u) {
     return hat_functions(kEdges, u) * kLevels;
 }

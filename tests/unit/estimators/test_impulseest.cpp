@@ -43,7 +43,7 @@ ImpulseestOptions plain(Index lags) {
 TEST(impulseest, is_exact_for_noise_free_finite_responses) {  // oracle: the response put in
     const Vector g = response_with(3, 21), u = RandomStream(2).normal(300);
     IdData data = record(g, u, 0, 1);
-    data.experiments[0].y.array() += 7;  // an offset is estimated besides
+    data.experiments[0].y.array() += 7;  // an offset is estimated as well
     const ImpulseEstimate estimate = impulseest(data, plain(20));
     EXPECT_LT((estimate.response - g).cwiseAbs().maxCoeff(), 1e-12);
     EXPECT_LT(estimate.noise_variance, 1e-24);

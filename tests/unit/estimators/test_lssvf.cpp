@@ -125,8 +125,8 @@ TEST(lssvf, refuses_bad_input_in_words) {  // oracle: the sentence names what is
     says(IdData(Matrix(y.array() + 5), Matrix::Ones(y.rows(), 1), 0.01), kCourse, cutoff(3), "no excitation");
 }
 
-TEST(lssvf, refused_constant_input_is_no_experiment) {  // oracle: justification, two systems with one record
-    // Resting at gain times input, a fast and a slow system of equal gain give the same record.
+TEST(lssvf, refused_constant_input_is_no_experiment) {  // oracle: justification, two systems with equal data
+    // At rest at gain times input, a fast and a slow system of equal gain give the same data.
     const Vector u = Vector::Ones(200);
     const TransferFunction fast(values({8}), values({1, 6, 4})), slow(values({2}), values({1, 3, 1}));
     EXPECT_EQ(fast.dc_gain(), slow.dc_gain());

@@ -103,7 +103,7 @@ TEST(oe, a_record_cut_from_a_running_experiment) {  // oracle: the simulated sys
     }
 }
 
-TEST(oe, operating_point_is_removed) {  // oracle: the same record without it
+TEST(oe, operating_point_is_removed) {  // oracle: the same data without it
     const Case& c = cases()[1];
     IdData data = simulated(c, 500, 0.1, 1);
     Experiment& experiment = data.experiments[0];

@@ -155,7 +155,7 @@ TEST(procsrivc, irregular_sampling_is_exact) {  // oracle: the simulated system
             }
 }
 
-// A record of a running experiment: levels, another mean for each, an offset of its own.
+// Data of a running experiment: input levels with a mean that depends on the experiment, and an offset.
 IdData running(const TransferFunction& G, std::uint32_t seed, double offset, bool regular) {
     const Index N = 600, cut = 50;
     RandomStream random(seed);
@@ -330,7 +330,7 @@ TEST(procsrivc, suspension_just_works) {  // oracle: physical truth, standard er
 TEST(procsrivc, unit_step_at_sample_one_with_an_offset) {  // oracle: the simulated system
     const Vector u = Vector::Ones(400);
     for (const Case& c : cases()) {
-        if (c.truth[1] > 5) continue;  // would not settle within the record
+        if (c.truth[1] > 5) continue;  // would not settle within the data
         const Vector y = lsim(model_of(c.structure, c.truth), u, 0.05).array() - 3;
         const auto result = fit(siso(y, u, 0.05), c.structure, tight());
         for (Index i = 0; i < c.truth.size(); ++i)
@@ -370,7 +370,7 @@ TEST(procsrivc, a_delay_in_a_long_record_is_found_between_the_delays_of_the_grid
     }
 }
 
-// Oracle: the simulated system. Nothing disturbs the record, so that only the unknown inputs before it can.
+// Oracle: the simulated system. The data contain no noise, so that only the unknown inputs before them can disturb.
 TEST(procsrivc, inputs_from_before_a_record_do_no_harm) {
     const Vector u = rough_input(900, 7), truth{{2, 0.6, 1.13}};
     const IdData cut = siso(lsim(model_of("P1D", truth), u, 0.1), u, 0.1).range(301, 900);
@@ -452,7 +452,7 @@ TEST(procsrivc, refuses_what_it_cannot_fit) {
     EXPECT_THAT(refusal([&] { fit(data, "P1", options); }), HasSubstr("`delay_count`"));
 }
 
-// Long records get their start from the beginning: the end must be that of the whole record all the same.
+// For long data, the start comes from the beginning. The end must still be the optimum of all data.
 TEST(procsrivc, a_long_record_ends_at_its_own_optimum) {  // oracle: second route, srivc without a structure of lags
     const Index N = 60'000;
     const Vector u = rough_input(N, 12), e = 0.3 * RandomStream(9).normal(N);
@@ -507,7 +507,7 @@ TEST(procsrivc, zero_and_delay_of_p1dz_have_no_standard_errors) {  // oracle: n 
 }
 
 TEST(procsrivc,
-     a_step_before_the_record_determines_only_its_time_constant) {  // oracle: 25 s; the gain is anybody's guess
+     a_step_before_the_record_determines_only_its_time_constant) {  // oracle: 25 s; the gain is undetermined
     const Vector t = Vector::LinSpaced(300, 0, 149.5);
     for (const std::uint32_t seed : {1u, 2u, 3u}) {
         const Vector y = 49.2 - 12 * (-t.array() / 25).exp() + 0.05 * RandomStream(seed).normal(300).array();

@@ -99,7 +99,7 @@ TEST(rivc, delays_offsets_inputs_and_experiments) {  // oracle: the simulated sy
         EXPECT_NEAR(both.theta[i], truth[i], 6 * both.std[i]) << message_text(both.full_message());
 }
 
-// oracle: the simulated system. Inputs from before the record reach its first 1.2 s, and nobody knows them
+// oracle: the simulated system. Unknown inputs from before the data affect their first 1.2 s
 TEST(rivc, a_record_cut_from_a_running_experiment) {
     const Vector u = prbs(7, 8);
     const Vector x = lsim(TransferFunction(values({2}), values({1, 4, 3}), 0, 1.2), u, 0.05);

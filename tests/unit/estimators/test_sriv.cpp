@@ -59,7 +59,7 @@ TEST(sriv, fixed_point_is_the_output_error_optimum) {  // oracle: second route
     }
 }
 
-TEST(sriv, agrees_with_oe_whatever_the_start) {  // oracle: second route, a cut record with an offset
+TEST(sriv, agrees_with_oe_whatever_the_start) {  // oracle: second route, cut data with an offset
     IdData data = simulated(kOrders, kTruth, 500, 0.5, 3).range(51, 500);
     data.experiments[0].y.array() += 20;
     for (InitialState state : {InitialState::kZero, InitialState::kSteady, InitialState::kEstimate}) {

@@ -207,7 +207,7 @@ TEST(step_test, refuses_an_input_that_is_no_step) {
     EXPECT_THAT(refusal([&] { step_first_order(nothing); }), HasSubstr("zero throughout"));
 }
 
-TEST(step_test, accepts_a_noisy_step_input) {  // oracle: the same record with a clean input
+TEST(step_test, accepts_a_noisy_step_input) {  // oracle: the same data with a clean input
     Experimental e;
     IdData data = record_of(e, 2, first_order(0.5));
     const auto clean = step_first_order(data);

@@ -23,7 +23,7 @@ TEST(arx_order_plot, the_best_for_each_number_of_parameters) {  // oracle: the c
     const Figure loss = arx_order_plot(selection, ArxCriterion::kLoss, {1, {}});
     loss.validate();
     const auto& curves = loss.panels.front().curves;
-    ASSERT_EQ(curves.size(), 3u);  // both records, the chosen one
+    ASSERT_EQ(curves.size(), 3u);  // both data sets, the chosen one
     EXPECT_EQ(curves[0].x, (Vector{{2, 3}}));
     EXPECT_EQ(curves[0].y, (Vector{{5, 3}}));
     EXPECT_EQ(curves[1].y, (Vector{{6, 5}}));

@@ -307,7 +307,7 @@ TEST(gnuplot_renderer, a_million_points_stay_small) {
     EXPECT_LT(std::filesystem::file_size(draw_one(renderer, figure, folder.path() / "a.pdf")), 150000u);
 }
 
-// Oracle: gnuplot accepts it without complaint; what a picture of extremes looks like is for the eye.
+// Oracle: gnuplot accepts the figure without an error. Only a reader can inspect a picture of extremes.
 TEST(gnuplot_renderer, extreme_data_are_drawn) {
     const TemporaryFolder folder;
     GnuplotRenderer renderer;

@@ -44,7 +44,7 @@ TEST(histogram, counts_agree_with_the_definition) {
     }
 }
 
-// Oracle: counted by hand; 1.5 stands on an edge, -1 and 9 beyond them.
+// Oracle: counted by hand; 1.5 is on an edge, -1 and 9 are beyond the edges.
 TEST(histogram, between_given_edges) {
     const HistogramBins bins = histogram_bins(Vector{{-1, 0, 0.4, 1.5, 2, 9}}, Vector{{-0.5, 0.5, 1.5, 2.5}});
     EXPECT_EQ(bins.counts, (Vector{{3, 0, 3}}));

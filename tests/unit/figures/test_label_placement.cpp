@@ -1,4 +1,4 @@
-// Names that stand beside their curves. Oracle: the geometry of straight lines.
+// Names beside their curves. Oracle: the geometry of lines.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Rigs that move. Oracle: their geometry by hand, and the samples that the test wrote.
+// Animated plants. Oracle: their geometry by hand, and the samples that the test wrote.
 #include "figures/plots/motion_plot.h"
 
 #include <gmock/gmock.h>
@@ -65,7 +65,7 @@ TEST(motion_plot, shows_pictures_where_their_instants_lie) {
     const Figure figure = motion_plot(crane(), all, at(Vector{{15.0, 5.0}}));
     ASSERT_EQ(figure.panels.size(), 3u);
     const Panel& pictures = figure.panels[0];
-    ASSERT_EQ(pictures.curves.size(), 3u);  // what stands still, measured, simulated
+    ASSERT_EQ(pictures.curves.size(), 3u);  // the fixed parts, measured, simulated
     const Rectangle frame = lay_out(figure).panels[0].box;
     const double seconds_per_cm = 20 / frame.width();
     // Of the four points of the rope and the rod in the first picture, at 5 s: the trolley stood at 0.5 m.

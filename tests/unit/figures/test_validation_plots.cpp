@@ -63,7 +63,7 @@ TEST(validation_plots, only_the_first_of_several_bands_is_named) {
     EXPECT_EQ(named, 1);
 }
 
-/// What the data do not determine spoils no picture. Oracle: the curve's own height.
+/// Undetermined parameters do not distort the picture. Oracle: the height of the curve itself.
 TEST(validation_plots, axes_follow_the_curves_where_a_parameter_is_undetermined) {
     const auto widest_band = [](const Panel& panel) {
         const Curve* band = band_of(panel);

@@ -124,8 +124,8 @@ TEST_P(delta_products_of, all_orders_are_the_definition_s) {
     }
 }
 
-// oracle: the same; a signal begins anywhere, with a jump of the state: in the middle of a lane's segment, in those
-// that are left over at the end, and after the record
+// oracle: the same; a signal begins anywhere, with a jump of the state: in the middle of a lane's segment, in the
+// samples that are left over at the end, and after the data
 TEST_P(delta_products_of, late_signals_are_the_definition_s) {
     const Index N = 1503;
     const Vector v = signal(1, N), w = signal(2, N);
@@ -143,7 +143,7 @@ TEST_P(delta_products_of, late_signals_are_the_definition_s) {
     EXPECT_TRUE(products->second.isZero(0));
 }
 
-// oracle: the same; segments that remember all of the one before, or only its end
+// oracle: the same; segments that depend on the whole segment before, or only on its end
 TEST_P(delta_products_of, records_of_all_lengths_are_the_definition_s) {
     const auto& poles = GetParam().poles;
     for (const Index N : {8 * Lanes::kWidth, 71, 2000, 4096, 30'011}) {

@@ -198,8 +198,8 @@ INSTANTIATE_TEST_SUITE_P(of, delta_regression,
                                                1e-9}),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
-// oracle: signals stored by ExactFilter and multiplied out, of which hardly anything passes the filter. (A derivative
-// is a difference of states there that are larger by 1/(lambda Ts)^2 = 1e8 than it.)
+// oracle: signals stored by ExactFilter and multiplied out, of which almost nothing passes the filter. (There, a
+// derivative is a difference of states that are larger by 1/(lambda Ts)^2 = 1e8.)
 TEST(delta_regression_limits, a_signal_that_the_filter_stops_keeps_its_digits) {
     const Index N = 20'011;
     const Eigen::Vector3d A(1, 0.02, 1e-4);

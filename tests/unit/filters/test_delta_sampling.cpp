@@ -34,7 +34,7 @@ TEST(delta_sampling, step_is_the_series_of_the_exponential) {
         }
         for (int i = 0; i < n; ++i) {
             EXPECT_NEAR(filter.G[i], static_cast<double>(W(i, 0)), 1e-15) << n;
-            EXPECT_NEAR(filter.H0[i] + filter.H1[i], filter.G[i], 1e-16) << n;  // a constant on a straight line
+            EXPECT_NEAR(filter.H0[i] + filter.H1[i], filter.G[i], 1e-16) << n;  // a constant, linearly interpolated
             for (int j = 0; j < n; ++j) EXPECT_NEAR(filter.E(i, j), static_cast<double>(E(i, j)), 1e-14) << n;
         }
     }

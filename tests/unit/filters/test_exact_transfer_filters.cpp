@@ -16,7 +16,7 @@ SampleView view(const Vector& x) {
     return {x.data(), x.size()};
 }
 
-/// Increasing instants with steps of their own.
+/// Increasing instants with unequal steps.
 Vector some_instants() {
     Vector t = kTs * Vector::LinSpaced(kSamples, 0, static_cast<double>(kSamples - 1));
     return t + 0.02 * t.array().sin().matrix();
@@ -54,7 +54,7 @@ TEST(exact_transfer_filters,
     }
 }
 
-TEST(exact_transfer_filters, sums_over_filtered_signals) {  // oracle: second route, signals filtered one by one by lsim
+TEST(exact_transfer_filters, sums_over_filtered_signals) {  // oracle: second route, lsim filters each signal
     const Vector u = RandomStream(1).normal(kSamples), y = RandomStream(2).normal(kSamples);
     const Vector E{{1.0, 3.0, 2.0}}, one{{1.0}}, p{{1.0, 0.0}}, pp{{1.0, 0.0, 0.0}};
     const RegressionRecord record{view(y), {view(u)}, {1}, {0.2}, {kTs, {nullptr, 0}}, Hold::kZoh, Hold::kFoh};

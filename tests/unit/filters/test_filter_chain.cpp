@@ -14,7 +14,7 @@ SampleView view(const Vector& x) {
     return {x.data(), x.size()};
 }
 
-// oracle: second route, the same instants given one by one as for irregular sampling
+// oracle: second route, the same instants given individually as for irregular sampling
 TEST(filter_chain, regular_instants_give_the_same_however_they_are_given) {
     const Index N = 300;
     const Vector u = RandomStream(1).normal(N), y = RandomStream(2).normal(N),

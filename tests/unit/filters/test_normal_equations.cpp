@@ -77,7 +77,7 @@ void expect_near(const Matrix& found, const Matrix& expected) {
     EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-8 * expected.cwiseAbs().maxCoeff());
 }
 
-// Oracle: every filtered signal simulated by itself, and the products summed.
+// Oracle: every filtered signal simulated separately, and the products summed.
 TEST_P(normal_equations, of_state_variable_filters) {
     Vector E = Vector::Ones(1);
     for (Index i = 0; i < order(); ++i) E = multiply(E, Vector{{1, 3}});

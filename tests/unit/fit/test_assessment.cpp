@@ -27,8 +27,8 @@ Vector ar1(Index N, double pole, std::uint32_t seed) {
     return e;
 }
 
-// Derivatives of the outputs of all records, stacked, by central differences; values that enter linearly are refitted,
-// which projects them out.
+// Derivatives of the outputs of all data sets, stacked, by central differences; values that enter linearly are
+// refitted, which projects them out.
 Matrix differences(const std::function<Vector(const Vector&)>& output, const Vector& theta) {
     Matrix Psi(output(theta).size(), theta.size());
     for (Index i = 0; i < theta.size(); ++i) {

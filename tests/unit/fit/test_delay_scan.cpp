@@ -1,4 +1,4 @@
-// Oracles: fits at fixed delays, and the delays of the records.
+// Oracles: fits at fixed delays, and the delays of the data.
 #include "numerics/fit/delay_scan.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ TEST(delay_scan, loss_over_the_delay_is_that_of_fixed_delays) {
     }
 }
 
-// Oracle: the delay of the record.
+// Oracle: the delay of the data.
 TEST(delay_scan, the_range_of_delays_grows_until_the_delay_is_in_it) {
     const Index N = 600;
     Vector u = Vector::Zero(N);
@@ -71,8 +71,8 @@ IdData irregular_record(double delay, Index rest) {
     return {x + 0.02 * random.normal(N), u, t};
 }
 
-// Oracle: the delays of the records. The beginning tells of the first; the second is longer than a quarter of it, and
-// nothing moves there in the third.
+// Oracle: the delays of the data. The beginning shows the delay of the first data set. The delay of the second is
+// longer than a quarter of the beginning. In the third, nothing moves in the beginning.
 TEST(delay_scan, the_beginning_of_an_irregular_record_is_scanned_where_it_represents_the_whole) {
     TransferStructure structure = TransferStructure::single(1, 0);
     structure.free_delays = true;

@@ -1,4 +1,4 @@
-// Oracles: what was put into the records; the system's own parameters; a second route to the same fit.
+// Oracles: the values put into the data; the system's own parameters; a second route to the same fit.
 #include "numerics/fit/diagnostics.h"
 
 #include <gmock/gmock.h>
@@ -109,7 +109,7 @@ TEST(diagnostics, difference_equations_and_process_models_are_assessed) {
     EXPECT_TRUE(diagnose(procsrivc(other, ProcessStructure::parse("P2")), other, {}).assessment);
 }
 
-// Oracle: the integrated record, to whose model the integrator is appended by hand.
+// Oracle: the integrated data, to whose model the integrator is appended by hand.
 TEST(diagnostics, integration_is_a_fit_of_the_integrated_input) {
     const Vector u = prbs(8, 6);
     const Vector y =

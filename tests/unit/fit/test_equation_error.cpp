@@ -55,7 +55,7 @@ TEST(equation_error, what_is_refused) {  // oracle: the promises of the header
     EXPECT_THAT(thrown_message([&] { check_equation_error("arx", data.range(1, 3), kOrders); }),
                 HasSubstr("more equations than its 2 parameters, but the data provide 2"));
     IdData poor = record(200, 1);
-    poor.experiments[0].u.setOnes();  // tells the sum of two coefficients of B only
+    poor.experiments[0].u.setOnes();  // shows only the sum of two coefficients of B
     EXPECT_THAT(thrown_message([&] { solve_rich_arx("arx", poor, PolynomialOrders::arx(1, {2}, {0})); }),
                 HasSubstr("arx"));
 }

@@ -58,7 +58,7 @@ TEST(integrated_input, running_sums_do_the_same_in_discrete_time) {  // oracle: 
     EXPECT_LT((estimate.polynomial->B[0] - truth.B[0]).cwiseAbs().maxCoeff(), 1e-8);
 }
 
-/// What is left of a record when its first `lost` samples are: the motor then stands somewhere, and turns.
+/// The data without the first `lost` samples: the motor then begins at an unknown position, and turns.
 IdData later_part(Index lost) {
     const Vector u = random_levels(600, 5, 1).array() + 0.02, noise = RandomStream(2).normal(600);
     const Vector y = lsim(kPosition.with_delay(0), u, 0.1) + 0.01 * noise;

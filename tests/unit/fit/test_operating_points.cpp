@@ -6,7 +6,7 @@ namespace test_operating_points {
 
 using namespace dynlab;
 
-TEST(operating_points, come_off_and_go_back) {  // oracle: the definition, a step and a record that swings
+TEST(operating_points, come_off_and_go_back) {  // oracle: the definition, a step and a swing
     Matrix step(4, 1), swing(4, 1), y(4, 2);
     step << 2, 2, 5, 5;
     swing << 1, 3, 1, 3;

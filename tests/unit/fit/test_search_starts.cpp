@@ -59,10 +59,10 @@ TEST(search_starts, come_from_poorer_structures_that_fit_better_than_asked) {
     EXPECT_EQ(search.better_starts(TransferStructure::single(3, 0), 2).size(), 2u);
     EXPECT_EQ(calls, 3);
     EXPECT_EQ(search.better_starts(TransferStructure::single(3, 0), 0.4).size(), 0u);
-    EXPECT_EQ(calls, 3);  // all are remembered
+    EXPECT_EQ(calls, 3);  // all are cached
 }
 
-// Oracle: nested models. Friction makes the crane's position a record that no linear model fits, where starts matter.
+// Oracle: nested models. With friction, no linear model fits the crane's position, so that starts matter.
 TEST(search_starts, richer_structures_never_fit_worse) {
     const Vector u = prbs(8, 6).head(800);
     Vector y = lsim(TransferFunction(values({2, 1}), values({1, 0.3, 4, 0.5})), u, 0.1);

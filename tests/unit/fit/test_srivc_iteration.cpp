@@ -29,7 +29,7 @@ IdData record(Index N, double noise) {
 const TransferStructure kStructure = TransferStructure::single(2, 1, 0.12);
 const Vector kTruth{{2, 5, 1, 3}};
 
-TEST(srivc_iteration, an_exact_record_gives_its_system) {  // oracle: the system that made the record
+TEST(srivc_iteration, an_exact_record_gives_its_system) {  // oracle: the system that made the data
     const IdData data = record(600, 0);
     FitOptions options;
     options.hold_y = Hold::kFoh;

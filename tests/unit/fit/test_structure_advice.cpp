@@ -1,4 +1,4 @@
-// Oracles: records made with a known cause, of random systems; the fit by the structure that is named; statistics with
+// Oracles: data made with a known cause, of random systems; the fit by the structure that is named; statistics with
 // fixed seeds.
 #include "numerics/fit/structure_advice.h"
 
@@ -20,7 +20,7 @@ using namespace dynlab;
 using namespace dynlab::test;
 using testing::HasSubstr;
 
-/// What is planted in a record of a random system.
+/// The defects planted in the data of a random system.
 struct Planted {
     bool offset = false, running = false, direct = false, late = false;
     int more_poles = 0;  ///< that the fitted structure lacks
@@ -74,7 +74,7 @@ Case random_case(std::uint32_t seed, const Planted& planted) {
         y.head(kLate) = noise * random.normal(kLate);
     }
     if (planted.offset) y.array() += uniform(random, 0.6, 3) * spread;
-    if (planted.running) {  // the input before the record was four higher
+    if (planted.running) {  // the input before the data was four higher
         Vector more = Vector::Zero(N + before);
         more.head(before).setConstant(4);
         y += lsim(TransferFunction(num, den), more, Ts).tail(N);
@@ -168,7 +168,7 @@ TEST(structure_advice, missing_pole_is_named_with_the_fit_that_is_reached) {
     EXPECT_FALSE(missed_structure(data, better, {}));
 }
 
-// Oracle: the same record with one output more, which misses nothing.
+// Oracle: the same data with an additional output, whose model is complete.
 TEST(structure_advice, of_several_outputs_the_one_is_named) {
     const Case made = random_case(1003, {.direct = true});
     const Vector& u = made.data.experiments[0].u.col(0);
@@ -185,7 +185,7 @@ TEST(structure_advice, of_several_outputs_the_one_is_named) {
     EXPECT_THAT(message_text(sentence_of(*missed)), HasSubstr("the fit of " + both.output_names[1] + " is"));
 }
 
-// Oracle: a feedthrough in a long record, of which only the beginning is fitted again.
+// Oracle: a feedthrough in long data, of which only the beginning is fitted again.
 TEST(structure_advice, of_a_long_record_its_beginning) {
     const Index N = 120'000;
     RandomStream random(5);

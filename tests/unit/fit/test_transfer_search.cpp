@@ -74,7 +74,7 @@ IdData nearly_integrating_record(std::uint32_t seed) {
     return IdData(Matrix(x + 0.6 * RandomStream(seed).normal(N)), Matrix(u), 0.1);
 }
 
-// Oracle: the system is stable, and so says the record within chance; the loss of the unstable model is smaller.
+// Oracle: the system is stable, and the data agree within chance; the loss of the unstable model is smaller.
 TEST(transfer_search, an_unstable_model_is_given_only_where_it_is_clearly_better_or_asked_for) {
     int unstable = 0;
     const TransferStructure structure = TransferStructure::single(1, 0);
@@ -211,8 +211,8 @@ TEST(transfer_search, begins_at_a_start_or_a_delay_that_is_given) {
     }
 }
 
-// Oracle: the search that begins at the least delay alone. On these records the scan, which goes from neighbor to
-// neighbor, misses where it leads to.
+// Oracle: the search that begins at the least delay alone. On these data, the scan, which goes from neighbor to
+// neighbor, misses the solution of that search.
 TEST(transfer_search, the_solution_for_the_least_delay_is_never_lost) {
     for (const std::uint32_t seed : {40'301U, 40'597U}) {
         const SearchCase one = search_case(seed, 1000);
@@ -235,7 +235,7 @@ TEST(transfer_search, an_end_that_cannot_be_simulated_loses) {
     EXPECT_LT(search_transfer("test", one.data, structure, {}).loss, one.loss_at_truth);
 }
 
-// Oracle: the simulated system. The record begins with the step and stands on a constant.
+// Oracle: the simulated system. The data begin with the step and have a constant offset.
 TEST(transfer_search, a_step_at_the_first_sample_on_a_constant_is_fitted) {
     const Index N = 400;
     const Vector u = Vector::Constant(N, 2.0);
@@ -249,7 +249,7 @@ TEST(transfer_search, a_step_at_the_first_sample_on_a_constant_is_fitted) {
     EXPECT_NEAR(fit.theta[2], 0.6, 5 * fit.std[2]);
 }
 
-// Oracle: the simulated system. Nothing disturbs the record, so that only the unknown inputs before it can.
+// Oracle: the simulated system. The data contain no noise, so that only the unknown inputs before them can disturb.
 TEST(transfer_search, inputs_from_before_a_record_do_no_harm_to_its_delay) {
     const Vector u = prbs(8, 4);
     const Vector y = lsim(TransferFunction(values({2}), values({1, 1.2}), 0, 1.73), u, 0.1);
@@ -263,7 +263,7 @@ TEST(transfer_search, inputs_from_before_a_record_do_no_harm_to_its_delay) {
     EXPECT_GT(fit.fit_percent[0], 99.9999);
 }
 
-/// A record of data/, whose columns are t, u and y.
+/// A data set of data/, whose columns are t, u and y.
 IdData course_data(const std::string& name) {
     std::ifstream file(DYNLAB_SOURCE_DIR "/data/" + name + "/" + name + ".csv");
     std::vector<double> t, u, y;

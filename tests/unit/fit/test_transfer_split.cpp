@@ -8,7 +8,7 @@ namespace test_transfer_split {
 using namespace dynlab;
 using namespace dynlab::test;
 
-/// Two outputs, two inputs, each channel with a denominator of its own, delays free.
+/// Two outputs, two inputs, orders for each channel, delays free.
 TransferStructure grid(Denominators sharing) {
     TransferStructure structure = TransferStructure::grid(2, 2, sharing, {2, 1, 1, 2}, {1, 0, 0, 1}, {0});
     structure.free_delays = true;
@@ -42,7 +42,7 @@ TEST(transfer_split, an_output_keeps_its_channels) {  // oracle: second route, t
     }
 }
 
-TEST(transfer_split, joined_fits) {  // oracle: values that tell where they come from
+TEST(transfer_split, joined_fits) {  // oracle: values that identify their source
     const TransferStructure whole = grid(Denominators::kPerChannel);
     const IdData data(Matrix(Matrix::Random(100, 2)), Matrix(Matrix::Random(100, 2)), 0.1);
     std::vector<OutputProblem> problems;

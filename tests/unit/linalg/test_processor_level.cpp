@@ -1,4 +1,4 @@
-// Oracle: the C library, which tells the levels that this processor has.
+// Oracle: the C library, which reports the levels of this processor.
 #include "numerics/linalg/processor_level.h"
 
 #include <gtest/gtest.h>

@@ -8,7 +8,7 @@ namespace test_tall_gram {
 
 using namespace dynlab;
 
-TEST(tall_gram, is_the_product_for_any_size) {  // oracle: the definition, each sum by itself
+TEST(tall_gram, is_the_product_for_any_size) {  // oracle: the definition, each sum separately
     for (const Index rows : {0, 1, 255, 256, 257, 1000})
         for (const Index columns : {0, 1, 3, 4, 7, 17}) {
             Matrix M = Matrix::Random(rows, columns + 1);

@@ -42,7 +42,7 @@ TEST(drifting_process, without_scale_is_a_first_order_system) {  // oracle: anal
     }
 }
 
-// oracle: a second route, the exponential over hundredths of a second in which the coefficients stand still
+// oracle: a second route, the exponential over hundredths of a second in which the coefficients are constant
 TEST(drifting_process, follows_its_equation_across_the_cleaning) {
     DriftingProcessParameters p = exact();
     p.cleaning_time = 400.3;

@@ -1,4 +1,4 @@
-// The table of rigs. Oracles: the stored data sets, their CSV files' headers and SOURCE.md, which people wrote; the
+// The plant catalog. Oracles: the stored data sets, their CSV files' headers and SOURCE.md, which people wrote; the
 // definition of a sampling time.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ std::vector<std::string> names_of(const PlantValues& values) {
     return names;
 }
 
-/// The record's experiments, or the record itself.
+/// The experiments of the data set, or the data set itself.
 std::vector<PlantValues> experiments_of(const Plant& plant, const PlantValues& record) {
     if (plant.experiments.empty()) return {record};
     std::vector<PlantValues> all;

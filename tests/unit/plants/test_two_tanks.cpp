@@ -16,7 +16,7 @@ double mean_square(const Vector& v) {
     return v.squaredNorm() / static_cast<double>(v.size());
 }
 
-TEST(two_tanks, empty_as_torricelli_says) {  // oracle: analytic, the root of the level falls along a straight line
+TEST(two_tanks, empty_as_torricelli_says) {  // oracle: analytic, the root of the level falls linearly
     const TwoTanksParameters p;
     const Matrix levels = two_tanks_levels(p, Vector::Zero(20), 4, {16, 0});
     for (Index k = 0; k < 20; ++k) {

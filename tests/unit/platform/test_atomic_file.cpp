@@ -217,7 +217,7 @@ TEST(atomic_file, writes_several_in_their_order) {
     write_files_atomically(files);
     for (const NewFile& file : files) EXPECT_EQ(read_file(file.file), file.content);
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 150);
-    // One that cannot be written: what stands before it may be new, the rest is as it was.
+    // One file cannot be written: the files before it may be new, the others stay as they were.
     files[140].file = folder.path() / "no such folder" / "file";
     for (NewFile& file : files) file.content = "new";
     EXPECT_THROW(write_files_atomically(files), EnvironmentError);

@@ -21,7 +21,7 @@ std::string reported(Call call) {
     return "nothing was thrown";
 }
 
-// A file stands where a folder is wanted: that refuses everybody, root as well.
+// A file has the path of a required folder, which is an error for every user, root as well.
 TEST(file_error, is_reported_in_the_words_of_other_messages) {
     const TemporaryFolder folder;
     const fs::path file = folder.path() / "file", below = file / "below", none = folder.path() / "none";

@@ -18,7 +18,7 @@ namespace test_guarded_call {
 using namespace std::chrono_literals;
 using testing::HasSubstr;
 
-// The address sanitizer catches a crash by itself, and lets no limit of memory be set.
+// The address sanitizer catches a crash itself and does not allow a memory limit.
 #ifdef __SANITIZE_ADDRESS__
 constexpr int kExitOfCrash = 1;
 #else

@@ -44,7 +44,7 @@ TEST(hash, does_not_depend_on_portions) {
     }
 }
 
-// Oracle: definition; a digest of parts tells where each ends, an empty one too.
+// Oracle: definition; a digest of parts depends on the end of each part, also of an empty one.
 TEST(hash, parts_are_distinguished) {
     const auto of_parts = [](std::initializer_list<std::string_view> parts) {
         DigestStream stream;

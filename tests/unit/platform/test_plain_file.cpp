@@ -1,5 +1,4 @@
-// Files where somebody else may have put a link, a pipe or something endless. Oracle: what stood at the end of the
-// link.
+// Files where another user may have put a link, a pipe or an endless file. Oracle: the content at the end of the link.
 #include "platform/files/plain_file.h"
 
 #include <gtest/gtest.h>

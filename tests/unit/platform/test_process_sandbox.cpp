@@ -46,7 +46,7 @@ TEST_F(full_sandbox, holds_nothing_but_what_was_put_in) {
     EXPECT_EQ(shell(sandbox_, "env | grep -c HOME=").output, "1\n");
 }
 
-/// Processes in whose command line this stands.
+/// The number of processes whose command line contains `marker`.
 int processes_with(const std::string& marker) {
     int count = 0;
     for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
@@ -63,7 +63,7 @@ TEST_F(full_sandbox, DISABLED_sleeps) {
     shell(sandbox_, std::string("exec sleep ") + std::getenv("DYNLAB_TEST_SLEEP"));
 }
 
-// oracle: the kernel's list of processes, after kills at every stage of a box's start
+// oracle: the kernel's list of processes, after kills at every stage of the start of a sandbox
 TEST_F(full_sandbox, ends_with_the_program_that_made_it) {
     const std::string marker = "4711." + std::to_string(::getpid());
     ::setenv("DYNLAB_TEST_SLEEP", marker.c_str(), 1);
@@ -136,14 +136,14 @@ TEST_F(full_sandbox, ends_with_all_it_started) {
     EXPECT_EQ(shell(sandbox_, "(setsid sleep 1235 >/dev/null 2>&1 &) ; echo done").output, "done\n");
     ChildOptions look;
     look.command = {"pgrep", "-fx", "sleep 123[45]"};
-    // The kernel ends the box's processes soon after its first one.
+    // The kernel ends the processes of the sandbox soon after its first process.
     std::string left = "not looked yet";
     for (int i = 0; i < 100 && !left.empty(); ++i, std::this_thread::sleep_for(std::chrono::milliseconds(20)))
         left = run_child(look, "procps").output;
     EXPECT_EQ(left, "");
 }
 
-// oracle: the kernel counts three processes in one box, none of which uses the whole time
+// oracle: the kernel counts three processes in one sandbox, none of which uses the whole time
 TEST_F(full_sandbox, counts_the_processor_time_of_all_its_processes) {
     Sandbox::Limits limits;
     limits.time = {std::chrono::milliseconds(900), 100};

@@ -20,7 +20,7 @@ using testing::Not;
 TEST(progress, a_command_says_how_far_it_is_in_the_file_of_its_environment) {
     const TemporaryFolder folder;
     const auto file = folder.path() / "progress";
-    write_progress(1, 4);  // nobody asks
+    write_progress(1, 4);  // not requested
     EXPECT_EQ(progress_in(file), std::nullopt);
     ::setenv(kFileOfProgress, file.c_str(), 1);
     write_progress(1, 4);

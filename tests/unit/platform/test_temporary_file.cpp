@@ -181,8 +181,7 @@ TEST(temporary_file, no_two_machines_have_the_same_name_in_names) {
     EXPECT_EQ(names.size(), machines.size());
 }
 
-// oracle: a process that cleans up and one that makes a file, at the same time: whoever comes first, the file is
-// written
+// oracle: one process cleans up while another makes a file; the file is written in either order
 TEST(temporary_file, making_and_cleaning_up_at_once_loses_nothing) {
     const TemporaryFolder folder;
     const pid_t parent = ::getpid(), cleaner = ::fork();

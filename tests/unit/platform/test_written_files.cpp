@@ -43,7 +43,7 @@ TEST_F(written_files, replace_what_earlier_runs_wrote_and_nothing_else) {
     EXPECT_THROW(WrittenFiles(ledger_).take(folder_.path() / "y.csv"), EnvironmentError);  // of that name none wrote it
 }
 
-// oracle: the rule: without a ledger every file that is there is somebody else's
+// oracle: the rule: without a ledger, every existing file belongs to another user
 TEST_F(written_files, of_others_stay) {
     write_file_atomically(file_, "a thesis");
     EXPECT_THROW(run("x"), EnvironmentError);

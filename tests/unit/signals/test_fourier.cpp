@@ -8,7 +8,7 @@ namespace test_fourier {
 
 using namespace dynlab;
 
-TEST(fourier, of_two_signals_at_once_is_that_of_each) {  // second route: one by one; lengths of both kinds
+TEST(fourier, of_two_signals_at_once_is_that_of_each) {  // second route: each transformed alone; lengths of both kinds
     RandomStream random(1);
     for (const Index N : {1, 2, 7, 60, 1009}) {
         const Vector x = random.normal(N), y = 1e-9 * random.normal(N);

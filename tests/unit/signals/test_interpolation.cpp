@@ -1,4 +1,4 @@
-// Oracle: the straight line through two points, by hand.
+// Oracle: linear interpolation between two points, by hand.
 #include "numerics/signals/interpolation.h"
 
 #include <gtest/gtest.h>

@@ -25,7 +25,7 @@ TEST(random, first_normals_of_seed_1) {  // oracle: reference data, 10 published
         EXPECT_NEAR(stream.normal(), expected, 5e-11);
 }
 
-TEST(random, vectors_continue_the_same_stream) {  // oracle: second route, one by one
+TEST(random, vectors_continue_the_same_stream) {  // oracle: second route, single values
     RandomStream one(7), many(7);
     const Vector first = many.normal(5), second = many.normal(4), third = many.uniform(3);
     for (Index i = 0; i < 5; ++i) EXPECT_EQ(first(i), one.normal());

@@ -197,7 +197,7 @@ TEST(grey_simulation, goes_on_where_equations_jump) {  // oracle: dv/dt = u - d 
         return {v.u - v.p[0] * apply(Operation::kSign, v.x[0])};
     });
     Vector u = Vector::Constant(31, 2);
-    u.tail(21).setZero();  // 1 s of pushing with 2 - 1, then braking with 1: stands after 2 s
+    u.tail(21).setZero();  // 1 s of pushing with 2 - 1, then braking with 1: at rest after 2 s
     const GreyTrajectory run = GreySimulator(sliding, 1, {}, 1e-7).run(Vector{{1}}, inputs_of(u, 0.1), {}, false);
     EXPECT_NEAR(run.y(10, 0), 1, 1e-3);
     EXPECT_NEAR(run.y(15, 0), 0.5, 1e-3);

@@ -128,7 +128,7 @@ TEST(irregular_filter, extra_instants_change_nothing) {  // oracle: property, sa
     }
 }
 
-// Oracle: the definition, the last sample that has arrived; u(t - delay) itself with straight lines.
+// Oracle: the definition: the last sample that has arrived, or, with linear interpolation, u(t - delay) itself.
 TEST(irregular_filter, a_gain_alone_delays_and_scales) {
     const Index N = 50;
     const Vector t = irregular_instants(N), u = RandomStream(9).normal(N);

@@ -113,7 +113,7 @@ TEST(lsim, discrete_model_follows_its_difference_equation) {  // oracle: definit
         EXPECT_NEAR(y(k), 1.2 * at(y, k - 1) - 0.4 * at(y, k - 2) + 0.5 * at(u, k - 3) + 0.2 * at(u, k - 4), 1e-14);
 }
 
-TEST(lsim, several_inputs_superpose) {  // oracle: second route, transfer functions one by one
+TEST(lsim, several_inputs_superpose) {  // oracle: second route, separate transfer functions
     Matrix A(2, 2), B(2, 2), C(2, 2), D(2, 2);
     A << -1, 0, 0, -2;
     B << 1, 0, 0, 3;

@@ -27,7 +27,7 @@ TEST(noise, white_noise_is_the_stream_itself) {  // oracle: definition
     EXPECT_EQ(ColoredNoise{}.draw(50, 0.3, one), 0.3 * other.normal(50));
 }
 
-/// Correlations of lags 0.. of a long record.
+/// Correlations of lags 0.. of a long signal.
 Vector correlations(const Vector& v, Index lags) {
     Vector r(lags);
     for (Index lag = 0; lag < lags; ++lag)

@@ -88,7 +88,7 @@ TEST(stability_margins, of_discrete_loops) {
     EXPECT_NEAR(margins.phase_margin, 90 - angle / 2 * 180 / kPi, 1e-9);
     EXPECT_NEAR(margins.gain_margin, 2 / K, 1e-12);
     EXPECT_NEAR(margins.gain_frequency, kPi / Ts, 1e-12);
-    // A delay counts as the poles at zero do that stand for it.
+    // A delay counts as the equivalent poles at zero do.
     const TransferFunction late(Vector{{0.2}}, Vector{{1, -0.9}}, Ts, 5 * Ts);
     const auto by_delay = stability_margins(late), by_poles = stability_margins(with_rational_delay("test", late));
     EXPECT_NEAR(by_delay.gain_margin, by_poles.gain_margin, 1e-11);

@@ -19,8 +19,8 @@ double covariance(const Vector& Re, Index lag) {
     return std::abs(lag) <= reach ? Re[reach + lag] : 0;
 }
 
-// N times the covariance of (1/N) sum_t e(t) u(t - a), summed pair by pair of instants; what taking the mean of e off
-// does is exact where e is white and else that of a long record.
+// N times the covariance of (1/N) sum_t e(t) u(t - a), summed pair by pair of instants. The effect of removing the mean
+// of e is exact for white e, and otherwise that of long data.
 Matrix by_pairs(const Vector& Re, const std::vector<Vector>& records, Index lags) {
     Matrix S = Matrix::Zero(lags + 1, lags + 1);
     double N = 0;
@@ -53,7 +53,7 @@ Vector first_row(const Vector& Re, const std::vector<Vector>& records, Index lag
 
 TEST(lagged_sums, covariance_is_that_of_the_sums) {  // oracle: the definition, pair by pair
     const Vector white = Vector::Constant(1, 0.7), colored{{0.1, -0.3, 0.5, 1.2, 0.5, -0.3, 0.1}};
-    Vector slow(61);  // of more lags than the shortest record has
+    Vector slow(61);  // has more lags than the shortest data set
     for (Index k = 0; k < slow.size(); ++k) slow[k] = std::exp(-0.1 * static_cast<double>(std::abs(k - 30)));
     const std::vector<Vector> one{centered(RandomStream(1).normal(20))};
     const std::vector<Vector> several{centered(RandomStream(2).normal(17)), centered(RandomStream(3).normal(4)),

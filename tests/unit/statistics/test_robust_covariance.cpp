@@ -23,7 +23,7 @@ Vector ar1(Index N, double pole, std::uint32_t seed) {
     return e;
 }
 
-// A with w = A e: row k predicts e(k) from at most p values before it, in the same record.
+// A with w = A e: row k predicts e(k) from at most p values before it, in the same data set.
 Matrix whitening_matrix(const Autoregression& model, const std::vector<Index>& lengths, Index N) {
     Matrix A = Matrix::Identity(N, N);
     Index first = 0;

@@ -30,7 +30,7 @@ TEST(whiteness, statistic_equals_ljung_and_box_formula) {  // oracle: the formul
     EXPECT_NEAR(test.bound, 2.5758293 / std::sqrt(300), 1e-7);
 }
 
-// Oracle: the definition; N of both records, products within each of them.
+// Oracle: the definition; N of both data sets, products within each of them.
 TEST(whiteness, products_do_not_cross_from_one_record_to_the_next) {
     const Vector one = ar1(120, 0.5, 1), other = ar1(80, 0.5, 2);
     const Vector a = one.array() - one.mean(), b = other.array() - other.mean();

@@ -1,4 +1,4 @@
-// Each finding on a record that we gave that defect, and none of the warnings on records without.
+// Each issue on data with that planted defect, and no warnings on data without defects.
 #include "numerics/validation/advice.h"
 
 #include <gmock/gmock.h>
@@ -47,7 +47,7 @@ std::string codes(const Advice& advice) {
     return all;
 }
 
-/// The message of a finding, or all codes when it is not there.
+/// The message of an issue, or all codes if the issue is missing.
 std::string said(const Advice& advice, const std::string& code) {
     const DataIssue* issue = advice.find(code);
     return issue != nullptr ? message_text(issue->message) : "no " + code + " among:\n" + codes(advice);
@@ -88,7 +88,7 @@ TEST(advice, dead_time_is_reported_in_seconds_and_samples) {  // oracle: the del
     EXPECT_TRUE(advice.clean()) << codes(advice);
 }
 
-TEST(advice, saturation_is_found_with_its_sections) {  // oracle: a clipped record
+TEST(advice, saturation_is_found_with_its_sections) {  // oracle: clipped data
     Record r = record(4, 0);
     const double limit = 0.6 * r.x.maxCoeff();
     r.y = r.x.cwiseMin(limit);
@@ -158,7 +158,7 @@ TEST(advice, offsets_are_reported) {  // oracle: the offset put in
     EXPECT_NEAR(advice.find("offset")->value, 20, 0.05);
 }
 
-TEST(advice, a_running_start_is_reported) {  // oracle: the record cut out of a movement
+TEST(advice, a_running_start_is_reported) {  // oracle: data cut out of a movement
     Record r = record(9, 0.01);
     Index fastest = 0;
     (r.x.segment(101, 400) - r.x.segment(100, 400)).cwiseAbs().maxCoeff(&fastest);
@@ -299,7 +299,7 @@ TEST(advice, sampling_instants_are_looked_at) {  // oracle: instants put togethe
     EXPECT_FALSE(advise(IdData(Matrix(r.y), Matrix(r.u), even)).has("gaps"));
 }
 
-TEST(advice, sections_that_do_not_follow_are_reported) {  // oracle: the section spoilt by us
+TEST(advice, sections_that_do_not_follow_are_reported) {  // oracle: the section that the test corrupts
     Record r = record(15, 0.02);
     for (Index k = 500; k < 570; ++k) r.y[k] += 0.8 * std::sin(0.09 * static_cast<double>(k - 500));
     const Advice advice = advise(r.data());
@@ -397,7 +397,7 @@ TEST(advice, curves_and_play_are_reported_where_they_are) {  // oracle: function
     EXPECT_TRUE(advise(bent_at_input([](double u) { return 3 * u; })).clean());
 }
 
-TEST(advice, a_limit_under_noise_is_reported) {  // oracle: clipped before the noise, so that nothing stands still
+TEST(advice, a_limit_under_noise_is_reported) {  // oracle: clipped before the noise, so that no section is constant
     const Vector u = random_heights(1500, 8, 31);
     Vector y = lsim(TransferFunction(Vector{{2.0}}, Vector{{1.0, 1.0, 4.0}}), u, kTs);
     y = y.cwiseMin(0.5 * y.maxCoeff()) + 0.01 * RandomStream(32).normal(1500);
@@ -466,7 +466,7 @@ TEST(advice, a_rest_without_an_offset_is_no_offset) {  // oracle: noise about ze
     EXPECT_FALSE(advise(IdData(Matrix(rising), Matrix(r.u), kTs)).has("offset"));
 }
 
-TEST(advice, long_records_keep_their_dynamics) {  // oracle: known noise, a pole of a tenth of the record's rate
+TEST(advice, long_records_keep_their_dynamics) {  // oracle: known noise, a pole of a tenth of the data's rate
     const Index N = 60000;
     const Vector u = random_levels(N, 7, 51);
     const Vector x = lsim(TransferFunction(Vector{{6.0}}, Vector{{1.0, 6.0}}), u, kTs);

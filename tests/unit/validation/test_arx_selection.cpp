@@ -1,4 +1,4 @@
-// Oracles: the equations written out sample by sample and solved by Eigen, the system that made the records.
+// Oracles: the equations written out sample by sample and solved by Eigen, the system that made the data.
 #include "numerics/validation/arx_selection.h"
 
 #include <gmock/gmock.h>

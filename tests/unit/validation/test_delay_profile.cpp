@@ -1,4 +1,4 @@
-// Oracle: fits with each delay held, from starts of their own and from what the fits at the neighboring delays found.
+// Oracle: fits with each delay held, from independent starts and from the results at the neighboring delays.
 #include "numerics/validation/delay_profile.h"
 
 #include <gtest/gtest.h>

@@ -44,7 +44,7 @@ TEST(delay_search, delays_between_samples_are_found) {  // oracle: the simulated
     EXPECT_NEAR(search.delay, 0.437, 4 * search.std);
     EXPECT_LT(search.std, 0.02);
     EXPECT_THAT(message_text(search.explanation), HasSubstr("samples), with a standard error"));
-    // told to the second digit of its error: no further from the value than half of that digit, and no digit more
+    // reported to the second digit of its error: no further from the value than half of that digit, and no digit more
     const std::string reported = message_text(search.explanation).substr(std::string("The delay is ").size());
     const std::string number = reported.substr(0, reported.find(' '));
     const double digit = std::pow(10, std::floor(std::log10(search.std)) - 1);

@@ -23,7 +23,7 @@ MonteCarloStudy first_order_study() {
     return {TransferFunction(Vector{{2.0}}, Vector{{1.0, 1.0}}), prbs(5, 4), 0.1, Hold::kZoh, 0.3, {}, 40, 7};
 }
 
-/// Statistics of the record itself, so that every sample counts.
+/// Statistics of the data themselves, so that every sample counts.
 MonteCarloEstimate moments(const IdData& data) {
     const auto y = data.experiments.front().y.col(0);
     return {Vector{{y.mean(), y.squaredNorm()}}, Vector{{0.1, 0.2}}, {"a1", "b0"}};
@@ -31,7 +31,7 @@ MonteCarloEstimate moments(const IdData& data) {
 
 const MonteCarloMethod kMoments{"moments", moments};
 
-TEST(monte_carlo, runs_use_consecutive_seeds) {  // oracle: the records made one by one
+TEST(monte_carlo, runs_use_consecutive_seeds) {  // oracle: the data sets made separately
     const MonteCarloStudy study = first_order_study();
     const MonteCarlo result = monte_carlo(study, {kMoments});
     const Vector x = lsim(study.system, study.u, study.Ts);

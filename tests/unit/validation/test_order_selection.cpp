@@ -79,7 +79,7 @@ TEST(order_selection, a_second_record_decides_when_it_is_given) {  // oracle: th
     EXPECT_THAT(message_text(choose_order(selection).explanation), HasSubstr("validation data"));
 }
 
-// Oracles: srivc() of the integrated record with the integrator appended, compare() of that model, the system.
+// Oracles: srivc() of the integrated data with the integrator appended, compare() of that model, the system.
 TEST(order_selection, structures_with_an_integrator_are_evaluated_with_it) {
     const TransferFunction G(Vector{{3.0}}, Vector{{1.0, 2.0, 0.0}});
     const IdData data = record(G, prbs(7, 8), 0.05, 30, 1), whole = record(G, prbs(8, 5), 0.05, 30, 2);
@@ -237,7 +237,7 @@ TEST(order_selection, same_numbers_for_any_number_of_threads) {  // oracle: one 
         EXPECT_EQ(one.candidates[i].estimate.theta, many.candidates[i].estimate.theta);
 }
 
-// Oracle: nested least squares. No linear model fits a record with a threshold, where starts matter.
+// Oracle: nested least squares. No linear model fits data with a threshold, where starts matter.
 TEST(order_selection, richer_structures_of_the_grid_never_fit_worse) {
     Vector y = lsim(kSecondOrder, prbs(8, 6).head(700), 0.05) + 0.02 * RandomStream(3).normal(700);
     y = y.unaryExpr([](double v) { return std::abs(v) < 0.2 ? 0.0 : v; }).eval();
@@ -284,7 +284,7 @@ TEST(order_selection, constant_in_the_record_leads_to_the_same_structure) {  // 
     EXPECT_EQ(found.zeros, plain.zeros);
     ASSERT_TRUE(found.estimate.start.offset);
     EXPECT_NEAR(found.estimate.offsets(0, 0), 3, 0.02);
-    // The same errors with one value more: BIC is larger by ln N / N, in whichever scale it is told.
+    // The same errors with one value more: BIC is larger by ln N / N, in whichever scale it is reported.
     FitOptions asked;
     asked.initial_state = InitialState::kZero;
     asked.offset = Offset::kEstimate;

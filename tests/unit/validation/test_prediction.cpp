@@ -61,7 +61,7 @@ struct Simulated {
     IdData data() const { return IdData(Matrix(y), Matrix(u), model.Ts); }
 };
 
-/// From rest, the first noise values zero, as those before the record.
+/// From rest. The first noise values are zero, as are those before the data.
 Simulated simulated(const PolynomialOrders& orders, const Vector& theta, Index N, std::uint32_t seed = 1) {
     const PolynomialModel model(orders, theta, 0.5);
     Simulated all{model, random_levels(N, 3, seed + 50), 0.5 * RandomStream(seed).normal(N), {}};
@@ -174,7 +174,7 @@ TEST(prediction, many_steps_ahead_is_nearly_the_simulation) {  // oracle: what t
     EXPECT_LT((only(many).output - run.results[0][0].output).cwiseAbs().maxCoeff(), 1e-10);
 }
 
-TEST(prediction, of_continuous_models_with_noise) {  // oracle: the noise the record was made with; rivc's own variance
+TEST(prediction, of_continuous_models_with_noise) {  // oracle: the noise of the data; rivc's own variance
     const Index N = 900;
     const TransferFunction G(Vector{{2.0}}, Vector{{1.0, 1.2, 4.0}}, 0, 0.13);
     Vector e = 0.3 * RandomStream(4).normal(N);
@@ -199,7 +199,7 @@ TEST(prediction, of_continuous_models_with_noise) {  // oracle: the noise the re
     EXPECT_GT(predict(plain, noisy(fit)).fit_percent[0], predict(plain, noisy(fit), ahead({})).fit_percent[0] + 10);
 }
 
-TEST(prediction, its_errors_are_tested_for_whiteness) {  // oracle: the structures that the record has, and has not
+TEST(prediction, its_errors_are_tested_for_whiteness) {  // oracle: the true and a wrong structure of the data
     const IdData data = simulated(kArmax, kArmaxTheta, 3000, 7).data();
     const Fit right = armax(data, kArmax);
     PolynomialOrders lower_order = kArmax;
@@ -229,7 +229,7 @@ TEST(prediction, without_a_noise_model_is_the_simulation) {  // oracle: second r
     }
 }
 
-TEST(prediction, finds_offset_and_operating_point) {  // oracle: the noise-free record, predicted without an error
+TEST(prediction, finds_offset_and_operating_point) {  // oracle: the noise-free data, predicted without an error
     Simulated s = simulated(kBoxJenkins, kBoxJenkinsTheta, 400);
     s.y = model_output(s.model, s.u, Vector::Zero(400)).array() + 20;
     for (const Offset offset : {Offset::kEstimate, Offset::kAuto}) {

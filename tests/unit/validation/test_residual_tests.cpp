@@ -48,7 +48,7 @@ TEST(residual_tests, correlations_equal_their_definition) {  // oracle: the defi
     EXPECT_NEAR(output.variance, e.squaredNorm() / static_cast<double>(N), 1e-10);
 }
 
-TEST(residual_tests, white_noise_on_the_true_model_passes) {  // oracle: how the record was made
+TEST(residual_tests, white_noise_on_the_true_model_passes) {  // oracle: how the data were made
     const Vector u = prbs(7, 8), y = lsim(kG, u, kTs) + 0.1 * RandomStream(1).normal(u.size());
     const auto tests = plain_tests(record(y, u), kG);
     EXPECT_TRUE(tests.outputs[0].whiteness.white);
@@ -72,7 +72,7 @@ TEST(residual_tests, colored_noise_on_the_true_model_is_distinguished_from_missi
     EXPECT_THAT(message_text(missing.verdict), HasSubstr("The model does not describe all dynamics"));
 }
 
-// Oracle: how the records were made; each has one cause, which the verdict names in the place of missing poles.
+// Oracle: how the data were made. Each data set has one cause, which the message names instead of missing poles.
 TEST(residual_tests, known_causes_are_named) {
     const Vector u = prbs(7, 8), e = 0.02 * RandomStream(1).normal(u.size());
     const auto verdict_on = [](const Vector& input, const Vector& y, const TransferFunction& G,
@@ -98,7 +98,7 @@ TEST(residual_tests, known_causes_are_named) {
     EXPECT_THAT(verdict(answer + e, kG, {{"b0"}, {}}), HasSubstr("the data do not reliably determine b0"));
 }
 
-TEST(residual_tests, tests_do_not_make_poor_models_good) {  // oracle: how the records were made
+TEST(residual_tests, tests_do_not_make_poor_models_good) {  // oracle: how the data were made
     const Vector u = prbs(7, 8), e = RandomStream(1).normal(u.size());
     const auto poor = plain_tests(record(0.1 * lsim(kG, u, kTs) + e, u), TransferFunction(0.1 * kG.num(), kG.den()));
     EXPECT_TRUE(poor.outputs[0].whiteness.white && poor.outputs[0].inputs[0].independent);
@@ -111,7 +111,7 @@ TEST(residual_tests, tests_do_not_make_poor_models_good) {  // oracle: how the r
         EXPECT_EQ(message_text(tests->verdict).find("standard errors of the model are valid"), std::string::npos);
 }
 
-TEST(residual_tests, feedback_shows_at_negative_lags) {  // oracle: how the record was made
+TEST(residual_tests, feedback_shows_at_negative_lags) {  // oracle: how the data were made
     const Index N = 1000;
     const Vector noise = 0.3 * RandomStream(2).normal(N), r = RandomStream(5).normal(N);
     Vector u(N), y(N);
@@ -141,7 +141,7 @@ TEST(residual_tests, experiments_count_together) {  // oracle: second route, sum
     EXPECT_NEAR(output.whiteness.correlation[3], products / (first.squaredNorm() + second.squaredNorm()), 1e-10);
 }
 
-TEST(residual_tests, channels_are_tested_pair_by_pair) {  // oracle: how the record was made
+TEST(residual_tests, channels_are_tested_pair_by_pair) {  // oracle: how the data were made
     const Index N = 900;
     Matrix u(N, 2), y(N, 2);
     u.col(0) = RandomStream(1).normal(N);

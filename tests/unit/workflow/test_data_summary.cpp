@@ -1,4 +1,4 @@
-// The description of a data file before anybody writes a script. Oracle: the content of the files.
+// The description of a data file before the user writes a script. Oracle: the content of the files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

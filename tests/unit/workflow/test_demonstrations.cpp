@@ -51,7 +51,7 @@ const std::map<std::string, std::string>& claims() {
          "  assert(math.abs(study.srivc.reported_std[k]/study.srivc.std[k] - 1) < 0.1)\n"
          "end\n"
          "assert(study.runs == 200)\n"},
-        // Second route: the poles and the gain of the system that made the records.
+        // Second route: the poles and the gain of the system that made the data.
         {"frequency",
          "for k, true_value in ipairs({0.8, 4}) do assert(math.abs(G.param[k] - true_value) < 4*G.std[k]) end\n"
          "assert(sum(F.odd.distortion) > 20*math.abs(sum(F.even.distortion)) and sum(F.odd.power) > "

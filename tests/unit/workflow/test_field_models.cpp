@@ -1,5 +1,5 @@
-// Models of measured-like records at the first attempt, and what is said of them. Oracle: the systems with which the
-// records were simulated (tests/reference/data/field); of two_modes, the smallest loss of 10 random starts by scipy.
+// Models of data as measured at the first attempt, and the messages about them. Oracle: the systems that simulated the
+// data (tests/reference/data/field); for two_modes, the smallest loss of 10 random starts by scipy.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

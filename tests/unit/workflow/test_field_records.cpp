@@ -1,5 +1,5 @@
-// Records as loggers, spreadsheets and instruments write them, read at the first attempt. Oracle: the plants with which
-// they were simulated. Their sources: tests/reference/data/field; families: tests/unit/data_io.
+// Data as loggers, spreadsheets and instruments write them, read at the first attempt. Oracle: the plants that
+// simulated them. Their sources: tests/reference/data/field; families: tests/unit/data_io.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -20,7 +20,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-/// Records of 2/(s^2 + 4s + 3) (x, with a delay of 0.33 s in late) and (s + 2)/(s^2 + 0.8s + 4) (theta), in files that
+/// Data of 2/(s^2 + 4s + 3) (x, with a delay of 0.33 s in late) and (s + 2)/(s^2 + 0.8s + 4) (theta), in files that
 /// state their sampling in different ways.
 constexpr const char* kRecords = R"lua(
 local u, Ts = prbs(6, 8), 0.05
@@ -120,7 +120,7 @@ TEST_F(identification_script, fills_missing_samples_and_reports_doubts_about_the
     EXPECT_THAT(printed(of("cut.csv")), HasSubstr("! The output x saturates"));  // as advice() marks a warning
 }
 
-/// A record of 2/(s^2 + 4s + 3), whose cells are left out where `keeps_u` or `keeps_y` says no, every `step` s.
+/// Data of 2/(s^2 + 4s + 3), sampled every `kStep` s. A cell is left out where `keeps_u` or `keeps_y` returns false.
 std::string logged(const std::function<bool(int, bool)>& keeps_u, const std::function<bool(int)>& keeps_y,
                    const char* missing = "", bool two_inputs = false) {
     constexpr double kStep = 0.02;
@@ -150,7 +150,7 @@ std::string logged(const std::function<bool(int, bool)>& keeps_u, const std::fun
     return text;
 }
 
-// oracle: the system that made the record; a straight line between two changes of the input would be another one
+// oracle: the system that made the data; linear interpolation between two changes of the input would give another one
 TEST_F(identification_script, inputs_with_missing_samples_are_held_and_outputs_interpolated) {
     const auto always = [](int) { return true; };
     const auto on_change = [](int, bool changes) { return changes; };

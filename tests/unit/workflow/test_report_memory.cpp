@@ -240,7 +240,7 @@ TEST_F(report_memory, a_script_runs_again_only_when_its_code_or_its_data_change)
     work_.write("other.csv", "t,y\n0,1\n1,5\n");  // load might prefer it
     EXPECT_TRUE(runs_again("Prose.", ""));
     EXPECT_TRUE(runs_again("Prose.", "print(7)\n"));
-    // A corrupt record does not stop the work.
+    // A corrupt run log does not stop the work.
     for (const auto& entry : fs::recursive_directory_iterator(work_.cache() / "runs"))
         if (entry.path().filename() == "record") write_file_atomically(entry.path(), "corrupt");
     EXPECT_TRUE(runs_again("Other prose.", "print(7)\n"));

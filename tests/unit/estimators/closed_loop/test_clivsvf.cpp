@@ -51,7 +51,7 @@ TEST(clivsvf, solves_the_equations_of_its_definition) {
     EXPECT_LT(relative_difference(clivsvf(data, kPlant, cutoff(3), known_controller()).theta, theta), 1e-9);
 }
 
-TEST(clivsvf, finds_the_computing_delay) {  // oracle: how the record was made
+TEST(clivsvf, finds_the_computing_delay) {  // oracle: how the data were made
     const IdData data = loop_record(0.05, 3);
     LoopKnowledge known{loop_controller()};
     known.controller->computing_delay = 0;
@@ -61,8 +61,8 @@ TEST(clivsvf, finds_the_computing_delay) {  // oracle: how the record was made
     EXPECT_THAT(message_text(found.full_message()), HasSubstr("with a controller delay of 1 sample"));
 }
 
-// oracle: definition: a record twice says the same; standard errors to what the window of their covariance changes with
-// N
+// oracle: definition: doubled data give the same estimate; the standard errors agree except for the window of their
+// covariance, which changes with N
 TEST(clivsvf, experiments_are_joined) {
     const IdData data = loop_record(0.05, 3);
     const Fit once = clivsvf(data, kPlant, cutoff(3), known_controller());

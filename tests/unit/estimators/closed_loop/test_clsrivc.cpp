@@ -92,7 +92,7 @@ TEST(clsrivc, an_unstable_plant_is_found_in_its_loop) {  // oracle: the truth 2/
               1e-7);
 }
 
-TEST(clsrivc, a_controller_in_continuous_time) {  // oracle: the truth, to what straight lines miss of u
+TEST(clsrivc, a_controller_in_continuous_time) {  // oracle: the truth, except for interpolation of u
     const Vector r = prbs(7, 10);
     const TransferFunction C(values({4, 4}), values({1, 0}));
     const IdData data = ClosedLoop(loop_plant(), {C}, 0.02).record(r, 0.01 * RandomStream(3).normal(r.size()));

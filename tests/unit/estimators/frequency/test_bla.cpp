@@ -101,7 +101,7 @@ TEST(bla, averages_are_those_of_their_definition) {  // second route: transforms
     EXPECT_NEAR(found.distortion[line - 1], std::max(0.0, spread - noise), 1e-9 * spread);
 }
 
-TEST(bla, experiments_are_realizations_too) {  // second route: the same record in pieces
+TEST(bla, experiments_are_realizations_too) {  // second route: the same data in pieces
     Recording how;
     how.noise = 0.1;
     const IdData joined = recorded(how);

@@ -28,7 +28,7 @@ FrequencyData noise_free(const TransferFunction& G, const Vector& w, double Ts =
     return frequency_data(response_between_samples(G, w, Ts, inter_sample), w, Vector(), Ts, inter_sample);
 }
 
-/// With errors of this variance, told or not.
+/// Adds errors of this variance. The data contain the variance if `reported`.
 FrequencyData noisy(const FrequencyData& truth, const Vector& variance, std::uint32_t seed, bool reported = true) {
     RandomStream random(seed);
     ComplexVector H = truth.response;

@@ -107,7 +107,7 @@ TEST(spa, converges_to_the_true_response) {  // oracle: the true system, noise-f
     EXPECT_GT(estimate.coherence.minCoeff(), 0.98);
 }
 
-TEST(spa, experiments_are_joined) {  // oracle: coverage shrinks as with one record of the joint length
+TEST(spa, experiments_are_joined) {  // oracle: coverage shrinks as for data of the joint length
     const IdData both = IdData::merge({record(1000, 0.5, 1), record(3000, 0.5, 2)});
     SpaOptions options;
     options.window = 30;

@@ -75,7 +75,7 @@ TEST(greyest, with_an_estimated_initial_state_is_coe) {  // oracle: second route
     EXPECT_GT(found.initial_std.minCoeff(), 0);
 }
 
-// Oracle: by hand. Two samples of the free decay x(t) = h exp(-r t) tell h and r: r = log(y1/y2)/Ts, and the
+// Oracle: by hand. Two samples of the free decay x(t) = h exp(-r t) determine h and r: r = log(y1/y2)/Ts, and the
 // errors follow from the inverse of the 2 x 2 sensitivities.
 TEST(greyest, of_two_parameters_by_hand) {
     const GreyModel model = grey_model(
@@ -124,7 +124,7 @@ TEST(greyest, weighs_outputs_by_their_noise) {  // oracle: the noise of each out
     EXPECT_LT(found.fit.std[0], 0.2);
 }
 
-TEST(greyest, several_experiments_count_together) {  // oracle: twice the same record halves the variance
+TEST(greyest, several_experiments_count_together) {  // oracle: the same data twice halve the variance
     const IdData one = swinging(0.05, 2);
     const GreyFit single = greyest(one, pendulum(8, 2.5, 0.5), tight()),
                   both = greyest(IdData::merge({one, one}), pendulum(8, 2.5, 0.5), tight());
@@ -204,8 +204,8 @@ IdData crane_data(const CraneRecord& crane) {
     return IdData(y, Matrix(crane.u), 0.02);
 }
 
-// Oracle: the rig, whose friction, belt, motor and sensors are richer than the model's seven parameters. Its best
-// linear model reaches 96.4 % of the angle on the validation record.
+// Oracle: the simulated plant, whose friction, belt, motor and sensors are richer than the model's seven parameters.
+// Its best linear model reaches 96.4 % of the angle on the validation data.
 TEST(greyest, explains_the_crane_better_than_any_linear_model) {
     const std::vector<CraneRecord> records = simulate_crane({}, {}, 1);
     const GreyFit found = greyest(crane_data(records[0]), crane_model());

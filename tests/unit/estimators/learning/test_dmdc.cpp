@@ -77,7 +77,7 @@ TEST(dmdc, cuts_small_directions) {  // a fast third state of small weight; orac
     EXPECT_EQ(found.singular_values.size(), 3);
 }
 
-TEST(dmdc, does_not_depend_on_units) {  // oracle: the same record in other units
+TEST(dmdc, does_not_depend_on_units) {  // oracle: the same data in other units
     IdData data = record(system_of_three(), 300, 0.1, 5), other = data;
     other.experiments[0].y.col(0) *= 1000;
     other.experiments[0].u.col(1) *= 0.01;

@@ -150,7 +150,7 @@ TEST(sindy, joins_experiments_and_irregular_samples) {
     expect_equations(polynomials(IdData(y, Matrix(y.rows(), 0), t), 2), kLotkaVolterra, 1);
 }
 
-TEST(sindy, runs_freely_from_the_first_sample) {  // oracle: Runge and Kutta's method in the record
+TEST(sindy, runs_freely_from_the_first_sample) {  // oracle: the Runge-Kutta method of the data
     const IdData data = lotka_volterra_record(0.05, 800);
     const SindyFit found = polynomials(data, 2);
     EXPECT_GT(found.fit.fit_percent.minCoeff(), 99);

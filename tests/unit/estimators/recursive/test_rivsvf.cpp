@@ -14,7 +14,7 @@ using namespace dynlab;
 using namespace dynlab::test;
 using testing::HasSubstr;
 
-TEST(rivsvf, with_the_model_of_lssvf_it_gives_ivsvf) {  // oracle: ivsvf, on records of all kinds
+TEST(rivsvf, with_the_model_of_lssvf_it_gives_ivsvf) {  // oracle: ivsvf, on data of all kinds
     for (const RecursiveCase& one : recursive_cases()) {
         const DenominatorGroup group(one.data, one.structure, 0, Hold::kFoh);
         RecursiveOptions options = recursive(one.lambda);

@@ -17,7 +17,7 @@ using namespace dynlab;
 using namespace dynlab::test;
 using testing::HasSubstr;
 
-TEST(rlssvf, forgetting_nothing_gives_lssvf) {  // oracle: lssvf, on records of all kinds
+TEST(rlssvf, forgetting_nothing_gives_lssvf) {  // oracle: lssvf, on data of all kinds
     for (const RecursiveCase& one : recursive_cases()) {
         const Fit batch = lssvf(one.data, one.structure, cutoff(one.lambda));
         const Fit pass = rlssvf(one.data, one.structure, recursive(one.lambda));

@@ -14,7 +14,7 @@ using namespace dynlab;
 using namespace dynlab::test;
 using testing::HasSubstr;
 
-// oracle: one pass of srivc from the same model, by its sums (filters/transfer_filters.h), on records of all kinds
+// oracle: one pass of srivc from the same model, by its sums (filters/transfer_filters.h), on data of all kinds
 TEST(rsrivc, with_a_fixed_model_it_is_one_pass_of_srivc) {
     for (const RecursiveCase& one : recursive_cases()) {
         const DenominatorGroup group(one.data, one.structure, 0, Hold::kFoh);

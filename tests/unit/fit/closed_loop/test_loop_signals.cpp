@@ -29,7 +29,7 @@ TEST(loop_signals, a_known_controller_is_simulated) {  // oracle: the loop witho
     EXPECT_FALSE(signals.warning());
 }
 
-TEST(loop_signals, the_record_shows_how_late_the_controller_answers) {  // oracle: how the record was made
+TEST(loop_signals, the_record_shows_how_late_the_controller_answers) {  // oracle: how the data were made
     for (const Index late : {0, 1}) {
         const Vector r = prbs(7, 5);
         LoopController controller = loop_controller();

@@ -21,7 +21,7 @@ TEST(arma_noise, whitening_undoes_the_noise_filter) {  // oracle: the definition
     EXPECT_EQ(found[1], 0);
 }
 
-TEST(arma_noise, finds_the_model_within_its_errors) {  // oracle: the simulated noise; two records, fixed seeds
+TEST(arma_noise, finds_the_model_within_its_errors) {  // oracle: the simulated noise; two data sets, fixed seeds
     const Vector C = values({1, 0.9}), D = values({1, -1, 0.2});
     const std::vector<Vector> records{arma_signal(C, D, 2000, 1), arma_signal(C, D, 1000, 2)};
     const ArmaNoise found = estimate_arma(records, 1, 2, 1e-8);

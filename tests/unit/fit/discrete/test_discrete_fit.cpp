@@ -59,7 +59,7 @@ TEST(discrete_fit, measures) {  // oracle: the simulation, sample by sample
     EXPECT_NEAR(fit.fit_percent[0], 100 * (1 - std::sqrt(squares / (y.array() - y.mean()).square().sum())), 1e-9);
 }
 
-TEST(discrete_fit, the_operating_point_comes_off) {  // oracle: second route, the centered record
+TEST(discrete_fit, the_operating_point_comes_off) {  // oracle: second route, the centered data
     const IdData data = record(400, 10);
     const CenteredData centered = without_operating_points(data);
     const Fit removed = fitted(data, InitialState::kZero, Offset::kRemove);

@@ -62,8 +62,8 @@ TEST(sampled_starts, there_are_none_where_nothing_is_missed) {  // oracle: the s
     EXPECT_TRUE(sampled_starts(data, with_free_delay(3, 1), fit, options).empty());
 }
 
-// Oracle: the definition, white errors without and with an input behind them. Four standard deviations of chi-squared
-// with some twenty degrees of freedom are passed by chance in a thousandth of all records.
+// Oracle: the definition, white errors without and with an effect of the input. By chance, a thousandth of all data
+// sets exceeds four standard deviations of chi-squared with about twenty degrees of freedom.
 TEST(sampled_starts, errors_follow_the_input_where_something_is_missed) {
     int false_alarms = 0;
     for (std::uint32_t seed = 1; seed <= 50; ++seed) {
@@ -75,8 +75,8 @@ TEST(sampled_starts, errors_follow_the_input_where_something_is_missed) {
     EXPECT_LE(false_alarms, 1);
 }
 
-// Oracle: differences of a sine of w radians a sample are 2 sin(w/2) as large, so that of 0.25 and of 0.4 radians the
-// squares are 0.06 and 0.16 of its own.
+// Oracle: differences of a sine of w radians a sample are 2 sin(w/2) as large. For 0.25 and 0.4 radians, the squares
+// are thus 0.06 and 0.16 of the sine's squares.
 TEST(sampled_starts, slow_errors_are_not_theirs) {
     for (const double turn : {0.25, 0.4}) {
         const Vector u = (Vector::LinSpaced(2000, 0, 1999) * turn).array().sin();

@@ -11,14 +11,14 @@ using namespace dynlab::test;
 const PolynomialOrders kOrders = PolynomialOrders::output_error({2}, {2}, {1});
 const Vector kTruth{{-1.5, 0.7, 0.8, -0.3}};
 
-/// A record of the system, from rest, with white noise of this size.
+/// Data of the system, from rest, with white noise of this size.
 std::vector<SampledExperiment> record(Index N, double noise) {
     const Vector u = random_levels(N, 3, 7), none = Vector::Zero(N);
     const Vector y = model_output(PolynomialModel(kOrders, kTruth, 1), u, none) + noise * RandomStream(11).normal(N);
     return {{Matrix(u), y}};
 }
 
-TEST(sriv_iteration, an_exact_record_gives_its_system) {  // oracle: the system that made the record
+TEST(sriv_iteration, an_exact_record_gives_its_system) {  // oracle: the system that made the data
     const auto experiments = record(400, 0);
     const DiscreteOutput model(kOrders, {InitialState::kZero, false}, experiments);
     const Vector y = model.target();

@@ -63,7 +63,7 @@ TEST(bootstrap, is_the_same_for_every_number_of_threads) {  // oracle: one threa
     EXPECT_NE(bootstrap(one, options).values, bootstrap(one, alone).values);
 }
 
-TEST(bootstrap, colors_its_errors_where_the_record_does) {  // oracle: scatter over 200 records with such errors
+TEST(bootstrap, colors_its_errors_where_the_record_does) {  // oracle: scatter over 200 data sets with such errors
     const int records = 200;
     Vector estimates(records);
     for (int k = 0; k < records; ++k)

@@ -58,7 +58,7 @@ TEST(profile_likelihood, of_a_delay_has_the_samples_on_its_grid) {  // oracle: m
 }
 
 TEST(profile_likelihood,
-     reports_where_it_has_no_end) {  // oracle: two steps too early to tell a time constant from a ramp
+     reports_where_it_has_no_end) {  // oracle: two steps too early to separate a time constant from a ramp
     const Vector u = Vector::Ones(40);
     const TransferFunction G(Vector{{0.02}}, Vector{{1.0, 0.02}});
     const Vector y = lsim(G, u, 0.1) + 0.02 * RandomStream(2).normal(40);

@@ -69,7 +69,7 @@ TEST(refitted_output, holds_parameters) {  // oracle: coe with the parameter fix
     EXPECT_EQ(found.std[0], 0);
 }
 
-TEST(refitted_output, takes_other_outputs) {  // oracle: a fit to a record with these outputs
+TEST(refitted_output, takes_other_outputs) {  // oracle: a fit to data with these outputs
     const IdData data = record(0.05), other = record(0);
     const RefittedOutput model(data, {TransferStructure::single(2, 0), {}, Vector{{3.5, 3.2, 2}}});
     const Vector outputs = other.experiments[0].y.col(0);
