@@ -58,10 +58,9 @@ struct CheckSession {
     std::map<std::string, GradedRun> runs;           ///< kMainRun, and one for each rerun
     std::string source;                              ///< the student's script
     Issues findings;                                 ///< of the document
-    std::map<std::string, PlantVariants> specimens;  ///< variants by run, "hidden" for hidden(); data sets
-    ///< without an entry are the common ones, variant 0
-    std::filesystem::path hidden_folder;  ///< holds NAME.mat or NAME.csv
-    bool visible_file = true;             ///< of the file that is being read
+    std::map<std::string, PlantVariants> specimens;  ///< by run, "hidden" for hidden(); missing: 0
+    std::filesystem::path hidden_folder;             ///< holds NAME.mat or NAME.csv
+    bool visible_file = true;                        ///< of the file that is being read
     const DeclaredCheck* current = nullptr;
     bool took_hidden = false;             ///< the current check used a hidden data set or its theoretical values
     Message answer_error;                 ///< why an answer that the current check requested is missing; quotes no data
