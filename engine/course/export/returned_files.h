@@ -25,9 +25,9 @@ struct ReturnOutcome {
 
 /// Writes the files that groups have not received yet into a new folder: copies to review, reviews, receipts.
 ///
-/// FOLDER/GROUP/NAME   the files
-/// FOLDER/mail.csv     one row per student, see mailing_list
-/// FOLDER/moodle.zip   for each student, if requested, see MoodleFeedback
+///     FOLDER/GROUP/NAME   the files
+///     FOLDER/mail.csv     one row per student, see mailing_list
+///     FOLDER/moodle.zip   for each student, if requested, see MoodleFeedback
 ///
 /// The participant number of a student comes from the worksheet, else from the names of the files received for this
 /// assignment, else from the roster. A number that is known to belong to another assignment is not used. A file that

@@ -12,9 +12,9 @@ std::string issues_as_text(const CheckResult& result, bool in_color, const Reade
 
 /// The outcome for a program, as JSON in UTF-8:
 ///
-/// {"subject": "report.pdf", "template": "lab_report", "language": "en", "pages": 7, "passed": false,
-///  "checked": ["7 pages of at most 6 + 1 of appendix", ...],
-///  "findings": [{"id": "pages", "severity": "rule", "page": 7, "place": null, "what": "...", "remedy": "..."}]}
+///     {"subject": "report.pdf", "template": "lab_report", "language": "en", "pages": 7, "passed": false,
+///      "checked": ["7 pages of at most 6 + 1 of appendix", ...],
+///      "findings": [{"id": "pages", "severity": "rule", "page": 7, "place": null, "what": "...", "remedy": "..."}]}
 ///
 /// severity is "rule" or "hint"; template, language, pages, page and place are null if unknown. The fields
 /// what_message, remedy_message and checked_messages contain the messages from which the texts were made

@@ -14,8 +14,8 @@ namespace dynlab::inline scripting {
 
 /// Each C++ class in a userdata states its object type (its members are a TypeEntry) and how many bytes it holds
 /// outside Lua:
-/// template <> struct Userdata<IdData> { static constexpr ObjectType type{"iddata"};
-///                                       static std::size_t outside_bytes(const IdData&); };
+///   template <> struct Userdata<IdData> { static constexpr ObjectType type{"iddata"};
+///                                         static std::size_t outside_bytes(const IdData&); };
 /// A class of large objects that never change after they are pushed may also declare `static Digest digest(const T&)`,
 /// of all its content: its objects are then passed on as constant, and the digest of each is computed once. Such
 /// objects can be shared with C++ beyond the life of the userdata (shared_object).

@@ -9,8 +9,8 @@ namespace dynlab::inline scripting {
 
 /// Converts every expression at the place of a statement to a call that shows its value, as the prompt does. An
 /// expression followed by a semicolon is only evaluated:
-/// x + 1        becomes  dynlab.show(x + 1);
-/// x + 1;       becomes  local _ = x + 1;
+///     x + 1        becomes  dynlab.show(x + 1);
+///     x + 1;       becomes  local _ = x + 1;
 /// An expression starts at the beginning of a line. It ends with a line, or before a semicolon or the end of a block,
 /// and may extend over several lines. All other text keeps its place and line. Source that Lua can read is returned
 /// unchanged, and so is source that remains invalid. `shown`: functions whose calls also show their values.
