@@ -19,7 +19,7 @@ class PluralRule {
     /// "nplurals=2; plural=n > 1;". Throws std::runtime_error that quotes what it cannot read.
     explicit PluralRule(std::string_view header = "nplurals=2; plural=n != 1;");
 
-    /// Which form stands by the count; below forms().
+    /// The index of the plural form for the count; below forms().
     std::size_t form(std::int64_t count) const;
     std::size_t forms() const { return forms_; }
 
@@ -48,9 +48,9 @@ class Catalog {
     std::span<const std::string> forms(std::string_view id, std::string_view context = {}) const;
     const PluralRule& rule() const { return rule_; }
 
-    /// What stands between a number's integer part and its decimals: the entry "." of the context "decimal sign".
+    /// The sign between a number's integer part and its decimals: the entry "." of the context "decimal sign".
     std::string decimal_sign() const;
-    /// What stands for ", ", " and ", " or ", "; " in lists: entries of the context "list".
+    /// The translation of ", ", " and ", " or ", "; " in lists: entries of the context "list".
     std::string list_separator(std::string_view english) const;
 
     std::size_t size() const { return forms_.size(); }

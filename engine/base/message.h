@@ -45,8 +45,8 @@ struct MessageList {
     bool operator==(const MessageList&) const;
 };
 
-/// What may stand for a {}: a count, a number, text that no language changes (a file, a name of the script, a unit), an
-/// option, or other messages.
+/// The possible values for a {}: a count, a number, text that no language changes (a file, a name of the script, a
+/// unit), an option, or other messages.
 using MessageArgument = std::variant<std::int64_t, Number, std::string, OptionName, MessageList>;
 
 /// Defined where Message is complete.
@@ -90,7 +90,8 @@ class Message {
     Message(MessageId<std::type_identity_t<T>...> id, const T&... arguments)  // NOLINT: literals are messages
         : id_(id.english()), arguments_{message_argument(arguments)...} {}
 
-    /// By the number: `one` where the language has a singular for it, else `many`. The first {} stands for the number.
+    /// A text that depends on the number: `one` if the language has a singular for it, else `many`. The first {} is the
+    /// number.
     template <class... T>
     static Message plural(std::int64_t count, MessageId<std::int64_t, std::type_identity_t<T>...> one,
                           MessageId<std::int64_t, std::type_identity_t<T>...> many, const T&... arguments) {
@@ -125,7 +126,7 @@ MessageArgument message_argument(std::integral auto value) requires(!std::same_a
     return static_cast<std::int64_t>(value);
 }
 
-/// "3 samples", as an argument or by itself: `plural(n, "{} sample", "{} samples")`.
+/// "3 samples", as an argument or alone: `plural(n, "{} sample", "{} samples")`.
 template <class... T>
 Message plural(std::int64_t count, MessageId<std::int64_t, std::type_identity_t<T>...> one,
                MessageId<std::int64_t, std::type_identity_t<T>...> many, const T&... arguments) {

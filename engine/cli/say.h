@@ -13,8 +13,8 @@ void speak_as_environment();
 /// Who reads what the program prints.
 const Reader& user();
 
-/// What a command says to its user, each on lines of its own. Where the environment wants them, the messages are in a
-/// file, too (data_io/values/command_messages.h).
+/// Messages of a command to its user, each on separate lines. If the environment requests it, the messages are also
+/// written to a file (data_io/values/command_messages.h).
 void say(const Message& result);          ///< on standard output
 void complain(const Message& complaint);  ///< on standard error, behind "dynlab: "
 void note(const Message& remark);         ///< on standard error, behind "dynlab: note: "

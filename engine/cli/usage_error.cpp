@@ -45,7 +45,7 @@ std::vector<std::string> command_names(const CLI::App* of) {
     return names;
 }
 
-/// The long ones with their signs; those that the help does not show are nobody's to mean.
+/// The long option names with their dashes, without options that the help does not show.
 std::vector<std::string> option_names(const CLI::App* of) {
     std::vector<std::string> names;
     for (const CLI::Option* option : of->get_options())
@@ -84,8 +84,7 @@ Message unknown_words(const CLI::App* command, const std::vector<std::string>& a
 }  // namespace
 
 std::string usage_message(const CLI::App* app, const CLI::Error& error) {
-    // The parser gives unknown words backwards, and asks for what it misses before it tells of a word that was
-    // misspelt.
+    // The parser gives unknown words backwards, and reports a missing argument before a misspelled word.
     const bool required = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
     Message message;
     if (const std::vector<std::string> args = app->remaining(true);

@@ -240,7 +240,8 @@ const Vector* numbers_of(const LoadedData& data, const std::string& name) {
     return found == data.variables.end() ? nullptr : std::get_if<Vector>(&found->second.value);
 }
 
-/// Whether the numbers go up, without those missing at the end: a record that is shorter than another beside it.
+/// Whether the numbers increase, without missing ones at the end: a signal that is shorter than another in the same
+/// table.
 bool goes_up(const Vector& values) {
     Index count = values.size();
     while (count > 0 && std::isnan(values[count - 1])) --count;

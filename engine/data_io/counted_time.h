@@ -28,8 +28,8 @@ struct Counted {
     bool assumed = false;                         ///< worth a word
     std::optional<TimeUnitOfNumbers> rival = {};  ///< as likely
 };
-/// Of numbers whose unit nobody states, judged by their size and steps. `Ts`: sampling time that the file states;
-/// `is_called_time`: they are called a time.
+/// Finds the unit of numbers without a stated unit, from their size and steps. `Ts`: sampling time that the file
+/// states; `is_called_time`: the column's name means time.
 Counted counted_unit(const Vector& values, std::optional<double> Ts, bool is_called_time);
 
 }  // namespace dynlab::inline data_io

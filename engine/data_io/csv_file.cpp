@@ -25,7 +25,7 @@ constexpr std::size_t kMaxListed = 8;
 
 class CsvReader {
   public:
-    /// `facts`: what an instrument says besides the table.
+    /// `facts`: what an instrument states outside the table.
     CsvReader(const std::filesystem::path& file, std::string_view text, const ImportOptions& options,
               const InstrumentFacts& facts)
         : file_(file), text_(text), options_(options), facts_(facts) {
@@ -47,7 +47,7 @@ class CsvReader {
 
   private:
     void note(Message sentence) { table_.notes.push_back(std::move(sentence)); }
-    /// The first of them, as nobody reads hundreds.
+    /// The first items only, as a user does not read hundreds.
     static MessageList first_of(MessageList list) {
         if (list.items.size() <= kMaxListed) return list;
         list.items.resize(kMaxListed);
@@ -75,7 +75,7 @@ class CsvReader {
         }
     }
 
-    /// Spreadsheets write the separator into a line of its own: sep=;
+    /// Spreadsheets write the separator into a separate line: sep=;
     void take_separator_line() {
         std::string_view line = trimmed_cell(rest_of_line());
         if (line.size() > 2 && line.front() == '"' && line.back() == '"') line = line.substr(1, line.size() - 2);
@@ -163,7 +163,7 @@ class CsvReader {
         MessageList reported;
         for (std::size_t j = 0; j < columns(); ++j) {
             const auto [name, unit] = split_unit(headers[j]);
-            if (unit.empty() || times[name] > 1) continue;  // y (m) and y (V) are told apart by their units
+            if (unit.empty() || times[name] > 1) continue;  // units distinguish y (m) and y (V)
             table_.names[j] = name, units[j] = unit;
             reported.items.push_back(Message("{} in {}", name, unit));
         }
@@ -252,7 +252,7 @@ class CsvReader {
         table_.units[*counter] = "s";
     }
 
-    /// Benchmark records give the sampling time as a column of one number.
+    /// Benchmark data sets give the sampling time as a column of one number.
     static bool is_one_number(const TableColumn& column) {
         return column.numbers.size() > 1 && column.missing + 1 == static_cast<std::size_t>(column.numbers.size()) &&
                column.numbers[0] == column.numbers[0];

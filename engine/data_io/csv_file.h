@@ -28,13 +28,14 @@ struct CsvTable {
     std::vector<Message> notes = {};                        ///< sentences on what was guessed and may be wrong
 };
 
-/// Reads a separated text as people's programs write it: comma, semicolon, tab, bar or blanks between cells; RFC 4180
-/// quoting; decimal commas where the comma is no separator; lines above the table, `sep=;`, comments (# or %) anywhere,
-/// a row of units, units in headers, no line of names (then c1, c2, ...), rows that end in a separator, a first column
-/// without name (index), equal names (numbered), empty cells and the words for missing numbers (NaN); UTF-8, UTF-16,
-/// Windows-1252. What was guessed stands in `notes`, unless `options` say it. Throws EnvironmentError with file, line
-/// and column, and what to write instead: a row of another length, text in a column of numbers (one of which at least
-/// half the first cells are), values that are not finite, no rows, a unit or name for a column that does not exist.
+/// Reads a separated text in the variants that programs write: comma, semicolon, tab, bar or blanks between cells; RFC
+/// 4180 quoting; decimal commas if the comma is no separator; lines above the table, `sep=;`, comments (# or %)
+/// anywhere, a row of units, units in headers, no line of names (then c1, c2, ...), rows that end in a separator, a
+/// first column without name (index), equal names (numbered), empty cells and the words for missing numbers (NaN);
+/// UTF-8, UTF-16, Windows-1252. `notes` lists the assumptions, unless `options` state them. Throws EnvironmentError
+/// with file, line and column, and the expected text: a row of another length, text in a column of numbers (in which at
+/// least half of the first cells are numbers), values that are not finite, no rows, a unit or name for a missing
+/// column.
 CsvTable read_csv_file(const std::filesystem::path& file, const ImportOptions& options = {});
 /// The same from the file's bytes; `file` is for messages.
 CsvTable read_csv_text(const std::filesystem::path& file, std::string bytes, const ImportOptions& options = {});

@@ -67,7 +67,7 @@ bool is_installed_data(const fs::path& path) {
     return lies_in(shared_folder() / "data", path);
 }
 
-/// Names of files in the data set's own folder. Whoever hands in a data set must not name the files of others.
+/// Names of files in the data set's folder. The author of a submitted data set must not name files outside it.
 std::vector<std::string> course_files(const fs::path& data_set) {
     std::vector<std::string> names = words_after(kCourseFileKey, data_set);
     for (const std::string& name : names)
@@ -90,7 +90,7 @@ std::optional<PackagedRecord> packaged_record(const fs::path& data_set) {
     return record;
 }
 
-/// A file of variables, or a record that a package brings.
+/// A file of variables, or a data set of a package.
 struct Source {
     fs::path file;
     std::optional<PackagedRecord> record = {};

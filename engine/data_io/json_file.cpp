@@ -41,7 +41,7 @@ class ReadingMemory {
 };
 
 constexpr std::size_t kNumberBytes = sizeof(double);
-constexpr std::size_t kEntryBytes = 3 * sizeof(Variable);  // a list that doubles stands there old and new
+constexpr std::size_t kEntryBytes = 3 * sizeof(Variable);  // a growing list exists twice for a moment
 constexpr std::size_t kMemberBytes = 128, kTableBytes = 96, kVectorBytes = 96;
 
 std::size_t bytes_of(const std::string& text) {

@@ -5,10 +5,10 @@
 
 namespace dynlab::inline data_io {
 
-/// Reads a JSON file whose outermost value is an object: numbers, texts and truths as they are, lists of numbers as
+/// Reads a JSON file whose outermost value is an object: numbers, texts and truth values unchanged, lists of numbers as
 /// vectors, lists of equally long lists of numbers as matrices (row by row), objects as structs, all other lists as
-/// lists. null stands for a number that is none (NaN). Throws EnvironmentError that names the file, and the line and
-/// column where it is no JSON: more than 64 MB, more than 100 levels, another outermost value, a name twice.
+/// lists. null means a missing number (NaN). Throws EnvironmentError that names the file, and the line and column of
+/// invalid JSON: more than 64 MB, more than 100 levels, another outermost value, a name twice.
 VariableTable read_json_file(const std::filesystem::path& file);
 
 /// Writes such a file, whole or not at all, the same bytes for the same variables; numbers have 17 digits, and those

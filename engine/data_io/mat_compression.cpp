@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kFileHeader = 128, kElementTag = 8;
 constexpr std::uint32_t kPlainElement = 14, kDeflatedElement = 15;
 constexpr std::size_t kLargeElement = std::size_t{1} << 22;  // bytes from which the choice is made
-constexpr std::size_t kTrial = std::size_t{1} << 16;         // bytes from the middle that tell how well it goes
+constexpr std::size_t kTrial = std::size_t{1} << 16;         // bytes from the middle that show the compression ratio
 constexpr double kLargestCompressedShare = 6.0 / 7;          // of the bytes that may be left
 
 struct ElementTag {
@@ -80,7 +80,7 @@ bool is_filled(std::string_view matrix) {
     while (!matrix.empty()) {
         if (matrix.size() < kElementTag) return false;
         const ElementTag tag = tag_at(matrix, 0);
-        const bool small = tag.type >> 16 != 0;  // the data stand within the tag
+        const bool small = tag.type >> 16 != 0;  // the data are within the tag
         const std::size_t padded = small ? 0 : (std::size_t{tag.bytes} + 7) / 8 * 8;
         matrix.remove_prefix(kElementTag);
         if (padded > matrix.size()) return false;

@@ -65,8 +65,8 @@ Message refusal_of_object(std::size_t number, const std::string& last_name) {
         number, last_name);
 }
 
-/// The next header; nothing at the end. HDF5 finds every variable by itself, so that one which is none (a link to
-/// another file) is passed over.
+/// The next header; nothing at the end. HDF5 finds every variable separately, so that an invalid one (a link to another
+/// file) is skipped.
 MatVariable next_variable(mat_t* mat, bool is_hdf5, MatioComplaints& complaints, std::vector<Message>& left_out) {
     constexpr int kMostLost = 64;  // in a row; libmatio may complain of the last one for ever
     for (int lost = 0; lost < kMostLost; ++lost) {

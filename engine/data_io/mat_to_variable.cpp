@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kMaxDepth = 50;  // levels of structs and cells
 
-/// Values that one byte of a file can stand for: deflate makes at most 1032 bytes from one.
+/// The number of values that one byte of a file can encode: deflate makes at most 1032 bytes from one.
 constexpr double kLargestDeflateRatio = 1032;
 /// Of a value: as a number, and as the one that is made from it or goes to the process that asked.
 constexpr double kBytesOfValue = 2 * sizeof(double);

@@ -1,5 +1,6 @@
-// libmatio brings some forty libraries with it (HDF5, and through it those of the network), whose loading took half of
-// the program's start. So it is loaded with the first MATLAB file: the functions below stand for the library's own.
+// libmatio depends on some forty libraries (HDF5, and through it network libraries), whose loading took half of the
+// program's start-up time. dynlab therefore loads it with the first MATLAB file: the functions below call the library's
+// functions.
 #include <dlfcn.h>
 #include <matio.h>
 

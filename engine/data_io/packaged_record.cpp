@@ -28,7 +28,7 @@ bool is_there(const fs::path& file) {
         record.package, record.package);
 }
 
-/// As many numbers as the record has samples; what they are is for messages.
+/// Reads as many numbers as the data set has samples; `what` names them in messages.
 Vector next_values(std::istream& text, const PackagedRecord& record, const Message& what) {
     Vector values(record.samples);
     for (Index k = 0; k < record.samples; ++k)

@@ -6,9 +6,9 @@
 
 namespace dynlab::inline data_io {
 
-/// A measured record of one input and one output that a Debian package brings as the input of an example program of the
-/// SLICOT library: gzipped text with a line of title and a line of settings, then the inputs, then the outputs, then
-/// anything.
+/// A measured data set of one input and one output that a Debian package contains as the input of an example program of
+/// the SLICOT library: gzipped text with a line of title and a line of settings, then the inputs, then the outputs,
+/// then any text.
 struct PackagedRecord {
     std::string package;
     std::filesystem::path file;

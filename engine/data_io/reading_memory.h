@@ -22,7 +22,7 @@ constexpr ReadingMegabytes megabytes_for_reading(std::size_t file_bytes) {
     return {memory_for_reading(file_bytes) / kMegabyte, (file_bytes + kMegabyte - 1) / kMegabyte};
 }
 
-/// "record.mat: reading it takes more than 512 MB of memory, too much for a file of 2 MB"
+/// "data.mat: reading it takes more than 512 MB of memory, too much for a file of 2 MB"
 Message refusal_for_memory(const std::filesystem::path& file, std::size_t file_bytes);
 
 /// 0 for one that is not there; who reads it says so.

@@ -76,7 +76,7 @@ class Reader {
         return true;
     }
 
-    /// One cell with what ends it; `more` tells whether another follows on the line.
+    /// One cell with its terminator; `more` is set if another cell follows on the line.
     std::string read_cell(bool& more) {
         std::string cell;
         const int line = line_;

@@ -10,7 +10,7 @@
 namespace dynlab::inline documents {
 namespace {
 
-/// The lines with spaces in the place of comments and of what stands between the fences of code.
+/// The lines, with comments replaced by spaces and code between fences left out.
 std::string without_comments_and_code(const std::string& text) {
     constexpr std::string_view kOpen = "<!--", kClose = "-->";
     std::string prose;
@@ -38,7 +38,7 @@ bool is_key_letter(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || static_cast<unsigned char>(c) >= 0x80;
 }
 
-/// Whether what stands at `at` is a whole name: @fig:a is not part of @fig:ab or @fig:a-b.
+/// Whether the text at `at` is a whole name: @fig:a is not part of @fig:ab or @fig:a-b.
 bool stands_alone(std::string_view text, std::size_t at, std::size_t length) {
     if (at > 0 && is_key_letter(text[at]) && is_key_letter(text[at - 1])) return false;
     if (!is_key_letter(text[at + length - 1])) return true;

@@ -19,9 +19,9 @@ class Complaints {
     std::vector<Message> messages_;
 };
 
-/// The origin of the `occurrence`-th line (1-based) of `markdown` that contains `text`, the last such line when
-/// there are fewer; `fallback` without line when there is none. Comments, code, and longer names that begin with `text`
-/// count only where it stands nowhere else.
+/// The origin of the `occurrence`-th line (1-based) of `markdown` that contains `text`, or of the last such line if
+/// there are fewer; `fallback` without line if there is none. Comments, code, and longer names that begin with `text`
+/// count only if `text` occurs nowhere else.
 Place find_in(const MarkdownText& markdown, const std::string& text, const std::filesystem::path& fallback,
               int occurrence = 1);
 

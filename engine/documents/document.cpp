@@ -105,7 +105,7 @@ class DocumentBuilder {
         std::vector<PlacedPicture> pictures =
             find_picture_files(written.pictures, text_.markdown, source_.template_file, format_, prefix(), complaints);
         pictures.insert(pictures.end(), logo.begin(), logo.end());
-        // A document that cannot be made tells its gaps together with what stands in its way.
+        // If a document cannot be made, its gaps are reported together with the errors.
         if (options_.gaps) (complaints.empty() ? *options_.gaps : complaints).add_all(written.gaps);
         complaints.throw_if_any();
         if (options_.pictures)

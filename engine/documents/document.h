@@ -17,10 +17,9 @@ enum class DocumentFormat { kPdf, kHtml, kMarkdown };
 DocumentFormat document_format(
     const std::filesystem::path& file);  ///< by extension; throws DocumentError naming the three
 
-/// What a document is made of: a template (Pandoc Markdown with slots, metadata in its YAML header), the run
-/// record that fills the slots and, for templates with a `::: {.cells}` block, the woven script. Where the run
-/// stopped with an error, it stands in the document (at its cell, else at the beginning) and slots without entry say
-/// so.
+/// The source of a document: a template (Pandoc Markdown with slots, metadata in its YAML header), the run results that
+/// fill the slots and, for templates with a `::: {.cells}` block, the woven script. If the run stopped with an error,
+/// the document shows the error (at its cell, else at the beginning), and slots without an entry say so.
 struct DocumentSource {
     std::filesystem::path template_file;
     std::map<std::string, std::string> metadata;  ///< title, subtitle, lang, date...: override the template's own
@@ -28,12 +27,12 @@ struct DocumentSource {
     std::filesystem::path bibliography = {};           ///< of the script; that of the template, beside it, goes before
     std::map<std::string, std::string> measures = {};  ///< Markdown of each, for `::: measures` blocks that name it
     bool names_values = false;  ///< in a page: each value in a sentence is a span of the class value with data-name
-    MarkdownText cells;         ///< put in place of `::: {.cells}` ... `:::`
+    MarkdownText cells;         ///< replaces `::: {.cells}` ... `:::`
 };
 
 /// The text of a document with everything in its place but the slots.
 struct PreparedText {
-    MarkdownText markdown;  ///< an error of a run that shows no cells stands at its beginning
+    MarkdownText markdown;  ///< an error of a run that shows no cells comes first
     std::map<std::string, std::string> metadata;
     DocumentRules rules;
     std::string language = "en";
@@ -47,24 +46,24 @@ LatexLayout latex_layout(const DocumentSource& source);
 std::string placed_bibliography(const DocumentSource& source, const PreparedText& text,
                                 const std::filesystem::path& work_folder, Complaints& complaints);
 
-/// Makes documents: template -> Markdown -> Pandoc with our filter -> HTML, or LaTeX -> pdflatex with a
-/// precompiled preamble and only the passes that references need; LuaLaTeX for letters that pdflatex does not have. The
-/// figures named by the record must have been drawn (record figures' `file`): PDF for kPdf, SVG for kHtml, when
-/// `wait_for_figures` returns. Throws DocumentError (with file and line or section): a slot without entry or of the
-/// wrong kind, dangling or duplicate references, a missing image, metadata keys that are not allowed, file or macro
-/// commands in mathematics, control characters, the first real LaTeX error; MissingProgram for pandoc and pdflatex.
+/// Makes documents: template -> Markdown -> Pandoc with our filter -> HTML, or LaTeX -> pdflatex with a precompiled
+/// preamble and only the passes that references need; LuaLaTeX for letters that pdflatex does not have. The figures of
+/// the run results must be drawn (their `file`: PDF for kPdf, SVG for kHtml) when `wait_for_figures` returns. Throws
+/// DocumentError (with file and line or section): a slot without entry or of the wrong kind, dangling or duplicate
+/// references, a missing image, metadata keys that are not allowed, file or macro commands in mathematics, control
+/// characters, the first real LaTeX error; MissingProgram for pandoc and pdflatex.
 class DocumentMaker {
   public:
     struct Options {
         bool use_cache = true;  ///< preamble format and .aux; never while grading
         std::filesystem::path latex_format =
-            {};  ///< the folder of a preamble format that stands ready, in the document's language (no slides)
+            {};  ///< the folder of an existing preamble format, in the document's language (no slides)
         std::vector<std::pair<std::string, double>>* timings = nullptr;  ///< seconds of each step, appended
         CachedLatexFormat* begun_format = nullptr;  ///< of latex_layout(), begun before the script ran
-        Complaints* gaps = nullptr;  ///< where given, slots without entry and references to nothing are told here, and
-                                     ///< the document is made with a bold ?? in their places
-        std::vector<Message>* notes = nullptr;      ///< about letters that pdflatex does not have, appended
-        std::filesystem::path lualatex_fonts = {};  ///< made by make_lualatex_fonts
+        Complaints* gaps = nullptr;             ///< if set, collects slots without entry and dangling references, and
+                                                ///< the document is made with a bold ?? in their places
+        std::vector<Message>* notes = nullptr;  ///< about letters that pdflatex does not have, appended
+        std::filesystem::path lualatex_fonts = {};               ///< made by make_lualatex_fonts
         std::vector<std::filesystem::path>* pictures = nullptr;  ///< files of pictures that the text shows, appended
     };
     explicit DocumentMaker(Options options) : options_(options) {}

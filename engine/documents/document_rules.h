@@ -15,7 +15,7 @@ struct SectionRule {
     const std::string& title(const std::string& language) const { return language == "fr" ? french : english; }
 };
 
-/// What a template asks of the documents made with it, in its YAML header:
+/// The rules of a template for the documents made with it, in its YAML header:
 ///
 ///     sections: |
 ///       Process | Procédé
@@ -25,10 +25,10 @@ struct SectionRule {
 ///     least_pages: 1
 ///     layout: slides
 ///
-/// A heading that is one of these titles, in either language, is set in the document's language. `pages` counts what
-/// stands before the first optional section, `appendix_pages` what begins with it; 0 is as if the
-/// line were not there. Less than `least_pages` is worth a hint. With the layout `slides`, instead of
-/// `pages`, every heading of the first level begins a slide of 160 mm by 90 mm.
+/// A heading that is one of these titles, in either language, is set in the document's language. `pages` limits the
+/// pages before the first optional section, `appendix_pages` those from it on; 0 means no limit. A document of less
+/// than `least_pages` gets a hint. With the layout `slides`, every heading of the first level begins a slide of 160 mm
+/// by 90 mm, and `pages` does not apply.
 struct DocumentRules {
     std::vector<SectionRule> sections;
     std::optional<int> pages, appendix_pages;

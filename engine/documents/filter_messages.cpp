@@ -295,7 +295,7 @@ Counts counts_in(const std::vector<std::string>& fields) {
     return counts;
 }
 
-/// Whether the line tells of a chunk.
+/// Whether the line is a message about a chunk.
 bool read_chunk_message(const std::vector<std::string>& fields, ChunkMessages& chunks) {
     if (fields[0] == "dynlab:chunk" && fields.size() > 1)
         chunks.begin[std::stoi(fields[1])] = counts_in(fields);

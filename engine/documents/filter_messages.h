@@ -13,14 +13,14 @@ namespace dynlab::inline documents {
 /// A picture the document shows: the filter gave it a number and wrote `file_name` into the output.
 struct UsedPicture {
     int number = 0;
-    bool is_figure = false;  ///< a figure of the run record, else a file
+    bool is_figure = false;  ///< a figure of the run results, else a file
     std::string name;        ///< of the figure, or the path as written
 };
 
 /// How many figures, tables, equations and sections of each level have been counted at one place of a document.
 using Counts = std::array<int, 10>;
 
-/// What is told of the pieces of a document that is set in chunks, by their numbers.
+/// The filter's messages about the pieces of a document that is set in chunks, by their numbers.
 struct ChunkMessages {
     std::map<int, Counts> begin, end;
     std::map<int, std::map<std::string, std::string>> labels;  ///< defined there: label -> what references show

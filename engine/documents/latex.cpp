@@ -92,7 +92,7 @@ LatexRefusal refusal_in(const std::string& log, int lines_before_body, const Eng
     int line = 0;
     std::string ending, message, before;
     if (RE2::FindAndConsume(&rest, placed, &ending, &line, &message)) {
-        // Code on slides is set from a file of its own, whose lines are not those of the body.
+        // Code on slides is set from a separate file, whose lines are not those of the body.
         line = ending == "tex" ? line - lines_before_body : 0;
     } else if (!RE2::FindAndConsume(&rest, unplaced, &message)) {
         return LatexRefusal(Message("{} stopped without a message", engine.program), 0, "");
@@ -337,7 +337,7 @@ LatexDocument run_latex(const LatexJob& job) {
     }
     const std::set<std::string> scripts = scripts_of(pdflatex, body);
     const std::string directed = with_direction_marks(body);
-    constexpr char32_t kUnknown = 0xFFFD;  // in the place of bytes that were no text; LuaTeX stops at it
+    constexpr char32_t kUnknown = 0xFFFD;  // replaces bytes that were no text; LuaTeX stops at it
     const std::set<char32_t> letters = characters_beyond_ascii(body);
     if (letters.contains(kUnknown)) result.replaced = {kUnknown};
     while (true) {  // a later pass may come to further letters

@@ -7,7 +7,7 @@
 
 namespace dynlab::inline documents {
 
-/// The words that stand behind an escaped backslash: their authors want to see them as they are.
+/// The words after an escaped backslash: their authors want to see them unchanged.
 std::set<std::string> escaped_commands(const MarkdownText& markdown);
 
 /// "@key" of each \@key: text, not a citation.

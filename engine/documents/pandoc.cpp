@@ -23,8 +23,8 @@ using namespace std::chrono_literals;
 /// comments are read as such; the filter drops these and refuses all other HTML.
 const char* const kReader =
     "markdown-raw_tex-raw_attribute-yaml_metadata_block-pandoc_title_block-latex_macros-native_divs-native_spans"
-    // These make Pandoc read each "[" in several ways: its time doubles with each one that is not closed. The filter
-    // finds citations in the text; notes have a line of their own ([^1]: ...).
+    // These extensions make Pandoc read each "[" in several ways: its time doubles with each unclosed one. The filter
+    // finds citations in the text; each note has a separate line ([^1]: ...).
     "-markdown_in_html_blocks-citations-inline_notes-bracketed_spans";
 constexpr std::chrono::seconds kMaxTime = 60s;  // of the processor; the manual, the longest document, takes some 10 s
 const char* const kMarkdownWriter =

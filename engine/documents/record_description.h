@@ -6,8 +6,8 @@
 
 namespace dynlab::inline documents {
 
-/// Run records as data_io/values/described.h stores them. A figure's curves are not among it: what is needed of them is
-/// in its file.
+/// Run results as data_io/values/described.h stores them. They do not contain a figure's curves: the figure's file has
+/// the required data.
 
 DYNLAB_DESCRIBE(RecordedValue, number, text)
 DYNLAB_DESCRIBE(RecordedTable, header, rows)
@@ -46,7 +46,7 @@ void describe(T& object, V& member) {
 
 DYNLAB_DESCRIBE(ExpectedAnswer, name, kind)
 
-/// An answer is its JSON; CBOR tells the kind beside it.
+/// An answer is stored as its JSON; CBOR stores the kind as well.
 void write_whole_value(ValueWriter& writer, const RecordedAnswer& answer);
 void read_whole_value(ValueReader& reader, RecordedAnswer& answer);
 

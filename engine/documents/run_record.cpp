@@ -9,7 +9,7 @@
 namespace dynlab::inline documents {
 namespace {
 
-/// What people read of a run: files without their folders, each output a piece of its own.
+/// The run results in the form for readers: files without their folders, each output a separate piece.
 RunRecord readable_record(const RunRecord& record) {
     RunRecord readable;
     readable.script = record.script;

@@ -33,7 +33,7 @@ struct RecordedTable {
 /// `report.figure`, or a figure a cell made and dropped (then `name` is "<cell id>-figure-K" and the caption
 /// is the figure's title).
 struct RecordedFigure {
-    std::shared_ptr<const Figure> figure;  ///< none in a record that was read
+    std::shared_ptr<const Figure> figure;  ///< null in run results that were read from a file
     std::string caption;                   ///< Markdown, read as safely as a template
     std::filesystem::path file;            ///< where it was drawn, once it was
     std::size_t order = 0;                 ///< in the order in which the script made its figures
@@ -52,7 +52,7 @@ struct CellOutput {
     std::optional<std::string> figure;  ///< name of a captured figure
 };
 
-/// `slider`: a number that whoever runs the script may choose.
+/// `slider`: a number that the user who runs the script may choose.
 struct RecordedSlider {
     double value = 0, initial = 0;  ///< what this run had; what the script says
     double from = 0, to = 0;
@@ -66,11 +66,11 @@ struct RecordedSlider {
 /// A call on the way to an error.
 struct RecordedCall {
     Message what;      ///< "called gain(x = 2)"
-    std::string file;  ///< where that stands, without folders
+    std::string file;  ///< file name of the place, without folders
     int line = 0;
 };
 
-/// Its options have the names that scripts use, whoever reads it.
+/// An error of the script. Its options have their script names for every reader.
 struct RecordedError {
     Message message;                       ///< without its place
     std::string file = {};                 ///< where it happened, without folders; empty when unknown
@@ -83,7 +83,7 @@ struct RecordedError {
     int line_in(const std::string& script) const { return file == script ? line : 0; }
 };
 
-/// `answer`: what a script hands in under a name.
+/// `answer`: a named answer of the script.
 struct RecordedAnswer {
     std::string kind;  ///< one of answer_kinds()
     std::string json;  ///< as push_answer_value reads it again
@@ -108,7 +108,7 @@ struct RunRecord {
 /// JSON text (UTF-8, keys sorted, numbers with 17 digits) without timings, so that equal runs give equal
 /// bytes.
 std::string to_json(const RunRecord& record);
-/// The record that to_json wrote, without what it leaves out. Throws ValueError for any other text.
+/// The run results that to_json wrote, without the parts that it leaves out. Throws ValueError for any other text.
 RunRecord record_from_json(const std::string& json);
 
 }  // namespace dynlab::inline documents

@@ -5,16 +5,16 @@
 
 namespace dynlab::inline documents {
 
-/// Worked solutions inside a literate script. In a code or a text cell,
+/// Reference solutions inside a literate script. In a code or a text cell,
 ///
 ///     -- BEGIN SOLUTION
 ///     local K = dy/du
 ///     -- STARTER: local K = 1    (what the student's copy starts from, so that it runs)
 ///     -- END SOLUTION
 ///
-/// encloses what a student must find. The student's copy keeps the cell with `-- YOUR CODE HERE` (in a text cell
-/// `-- *Your answer:*`; both in the copy's language) in place of the solution, followed by the STARTER lines without
-/// their sign: code in a code cell, text in a text cell. Documents never show markers or STARTER lines.
+/// encloses the part that a student must find. In the student's copy, `-- YOUR CODE HERE` (in a text cell `-- *Your
+/// answer:*`; both in the copy's language) replaces the solution, followed by the STARTER lines without their sign:
+/// code in a code cell, text in a text cell. Documents never show markers or STARTER lines.
 enum class SolutionLine { kNone, kBegin, kEnd, kStarter };
 
 /// What a line of a script is. Throws DocumentError for a line that is nearly a marker (wrong case, plural), which

@@ -29,8 +29,8 @@ TemplateFile read_settings(const std::filesystem::path& file);
 /// Whether the body has a block `::: {.cells}`.
 bool shows_cells(const TemplateFile& source);
 
-/// The body with `cells` in place of the block `::: {.cells}` ... `:::`. Throws DocumentError when the block has
-/// content or occurs twice.
+/// The body with `cells` instead of the block `::: {.cells}` ... `:::`. Throws DocumentError if the block has content
+/// or occurs twice.
 MarkdownText with_cells(const TemplateFile& source, const MarkdownText& cells);
 
 }  // namespace dynlab::inline documents

@@ -87,7 +87,7 @@ std::string with_texts_of_script(const RunRecord& record, const std::string& mar
     const auto shows = [&](const std::string& name) { return markdown.find(name) != std::string::npos; };
     std::string text = markdown;
     const auto add = [&text](const std::string& more) {
-        if (more.find("{.") != std::string::npos) text += more + "\n";  // others show nothing of the record
+        if (more.find("{.") != std::string::npos) text += more + "\n";  // other texts show no run results
     };
     for (const auto& [name, shown] : record.texts)
         if (shows(name)) add(shown.markdown);

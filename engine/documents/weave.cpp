@@ -76,7 +76,7 @@ bool shows_histograms(const Figure& figure) {
     });
 }
 
-/// "y (m), u (V) over time (s)": time is a sentence of its own, as other languages have an article there.
+/// "y (m), u (V) over time (s)": time is a separate sentence, as other languages have an article there.
 Message over_axis(const MessageList& drawn, const std::string& over, const Reader& reader) {
     if (over.empty()) return Message("{}", drawn);
     const std::string time = message_text(Message("time"), reader);

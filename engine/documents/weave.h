@@ -21,8 +21,8 @@ struct MarkdownText {
 /// left out; a recorded error appears at its cell.
 MarkdownText weave_cells(const PercentScript& script, const RunRecord& record);
 
-/// What the axes of a figure say, as Markdown for the reader, for a caption where nobody gave one: "y (m), u (V) over
-/// time (s)"; empty where they say nothing.
+/// The labels of a figure's axes, as Markdown for the reader, used as a caption if the script gives none: "y (m), u (V)
+/// over time (s)"; empty if the axes have no labels.
 std::string words_of_axes(const Figure& figure, const Reader& reader);
 
 /// A block that shows an error's message.

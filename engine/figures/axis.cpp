@@ -120,7 +120,7 @@ double Axis::widest_label(double size) const {
 }
 
 void Extent::include(double value) {
-    if (low_ && value >= *low_ && value <= *high_) return;  // as nearly all samples of a long record
+    if (low_ && value >= *low_ && value <= *high_) return;  // as for most samples of long data
     if (!std::isfinite(value) || (log_ && value <= 0)) return;
     value = std::clamp(value, -kMaxAxisValue, kMaxAxisValue);
     low_ = std::min(low_.value_or(value), value);

@@ -20,7 +20,7 @@ struct Axis {
     bool log = false;
     std::vector<Tick> ticks;
     std::vector<double> minor;  ///< short ticks without a number
-    int exponent = 0;           ///< the labels are to be multiplied by 10^exponent, which stands at the axis' end
+    int exponent = 0;           ///< multiply the labels by 10^exponent, shown at the axis' end
 
     double position(double value) const;     ///< 0 at low, 1 at high; NaN for what the axis cannot show
     double widest_label(double size) const;  ///< cm at `size` points

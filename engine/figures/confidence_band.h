@@ -14,7 +14,7 @@ Message confidence_text(double level);
 void add_confidence_band(Panel& panel, std::size_t line, const Vector& half_width, double level,
                          double most = std::numeric_limits<double>::max());
 
-/// Where the uncertainty is large, the panel shows the bands only as far as they keep its first `lines` curves
+/// If the uncertainty is large, the panel shows only the part of the bands that keeps its first `lines` curves
 /// readable: half their height, and at least `least_room`, beyond them.
 void limit_to_readable(Panel& panel, std::size_t lines, double least_room);
 

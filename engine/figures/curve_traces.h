@@ -8,7 +8,7 @@ namespace dynlab::inline figures {
 /// show. Parts that a style does not need stay empty.
 struct CurveTraces {
     Trace line;
-    Trace points;        ///< markers; for lines, the samples that stand alone between gaps
+    Trace points;        ///< markers; for lines, the isolated samples between gaps
     Trace lower, upper;  ///< the edges of a band
     std::vector<Rectangle> bars;
 };

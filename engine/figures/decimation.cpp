@@ -16,7 +16,7 @@ std::int64_t cell_of(double value, double cell) {
     return static_cast<std::int64_t>(std::floor(std::clamp(value / cell, -1e9, 1e9)));
 }
 
-/// Calls use(first, end) for every run of neighbors for which same(i, j) holds; a gap is a run of its own.
+/// Calls use(first, end) for every run of neighbors for which same(i, j) holds; a gap is a separate run.
 template <class Same, class Use>
 void for_runs(const Trace& trace, Same same, Use use) {
     for (std::size_t first = 0, end; first < trace.size(); first = end) {

@@ -227,7 +227,7 @@ class LayoutWork {
 
     const Figure& figure_;
     std::vector<PanelLayout> panels_;
-    std::vector<bool> direct_;  // names stand beside the curves
+    std::vector<bool> direct_;  // names are next to the curves
     std::vector<Margins> column_margins_, row_margins_;
     CenteredText title_;
     double height_ = 0;

@@ -118,7 +118,7 @@ std::vector<TextPiece> text_pieces(std::string_view utf8) {
 }
 
 std::string with_marked_indices(const std::string& text) {
-    // The character behind an index may stand before the next one, so that the search goes on at it.
+    // The character after an index may precede the next one, so that the search continues at it.
     static const RE2 index(
         R"((?:^|[^A-Za-z0-9_])([A-Za-z]_|(?:[A-Za-z]*|[0-9]+)\^-?)([A-Za-z0-9]{1,2})(?:[^A-Za-z0-9_{]|$))",
         RE2::Latin1);

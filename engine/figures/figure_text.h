@@ -5,8 +5,8 @@
 
 namespace dynlab::inline figures {
 
-/// Text of a figure in pieces of one kind. Scripts write plain Unicode; `x_{max}` and `e^{-t}` (with braces) raise and
-/// lower, everything else stands for itself.
+/// Text of a figure in pieces of one kind. Scripts write plain Unicode; `x_{max}` and `e^{-t}` (with braces) lower and
+/// raise text; all other characters are literal.
 struct TextPiece {
     enum class Level { kLine, kLowered, kRaised };
     std::u32string text;
@@ -32,7 +32,7 @@ struct FittedText {
 };
 /// At most two lines, broken where they come out most alike; down to 70 % of `size`, then cut.
 FittedText fit_text(const std::string& text, double length, double size);
-/// One line, likewise.
+/// The same for a single line.
 FittedText fit_line(const std::string& text, double length, double size);
 
 /// The text as a gnuplot string: single quotes, inside which gnuplot substitutes nothing, with apostrophes printed as

@@ -13,8 +13,8 @@
 
 namespace dynlab::inline figures {
 
-/// A running gnuplot. Its complaints are collected by a thread, so that neither side ever waits
-/// for the other to read. It runs in a process group of its own and reads no start-up files.
+/// A running gnuplot. A thread collects its messages, so that neither side ever waits for the other to read. It runs in
+/// a separate process group and reads no start-up files.
 class GnuplotProcess {
   public:
     GnuplotProcess();  ///< throws MissingProgram, or EnvironmentError when it cannot be started

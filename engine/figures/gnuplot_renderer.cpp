@@ -120,7 +120,7 @@ class GnuplotRenderer::Work {
 
   private:
     struct Pending {
-        unsigned number;  ///< of gnuplot's report; 0 for a figure that is not drawn but recalled
+        unsigned number;  ///< of gnuplot's report; 0 for a figure from the cache
         FigureFormat format;
         fs::path temporary, target;
         FileDescriptor in_use;  ///< the lock of the temporary file

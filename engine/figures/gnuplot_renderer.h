@@ -35,7 +35,7 @@ class GnuplotRenderer {
     /// Waits until all queued files are whole. Throws FigureError with gnuplot's first complaint.
     void finish();
 
-    CacheUse use() const;  ///< figures drawn and recalled so far
+    CacheUse use() const;  ///< figures drawn and taken from the cache so far
 
   private:
     class Work;

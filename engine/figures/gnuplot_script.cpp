@@ -240,7 +240,7 @@ class PanelScript {
                     [&] { put_trace(traces.points); });
     }
 
-    /// Then their greys alone would not tell them apart.
+    /// With several bands, their grays alone would not distinguish them.
     bool several_bands() const {
         const auto is_band = [](const Curve& curve) { return curve.style == CurveStyle::kBand; };
         return std::count_if(panel_.curves.begin(), panel_.curves.end(), is_band) > 1;

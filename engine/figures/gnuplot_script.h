@@ -11,7 +11,8 @@ namespace dynlab::inline figures {
 /// Texts and numbers are the reader's.
 std::string gnuplot_script(const Figure& figure, FigureFormat format, const Reader& reader = {});
 
-/// The same as the text of a file that `gnuplot FILE` draws by itself, into `output`, a name beside it.
+/// The same as the text of a file that `gnuplot FILE` can draw without further input, into `output`, a name in its
+/// folder.
 std::string gnuplot_file(const Figure& figure, FigureFormat format, const std::string& output,
                          const Reader& reader = {});
 

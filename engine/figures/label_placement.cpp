@@ -303,7 +303,7 @@ class Placement {
     const PanelLayout& layout_;
     double width_, height_;
     Occupancy taken_;
-    std::vector<std::vector<PagePoint>> visible_;  ///< of each curve, where names stand beside them
+    std::vector<std::vector<PagePoint>> visible_;  ///< of each curve, if names are next to the curves
     bool all_named_ = true;
     std::vector<PlacedLabel> labels_;
 };

@@ -21,8 +21,8 @@ struct PlacedLabel {
 std::vector<PlacedLabel> place_labels(const Panel& panel, const PanelLayout& layout,
                                       const std::vector<CurveTraces>& curves);
 
-/// Whether every named curve has room for its name where this covers nothing and is clearly nearer to its own
-/// curve than to any other. False for bands and bars, which have no line to stand at.
+/// Whether every named curve has room for its name at a place where the name covers nothing and is clearly nearer to
+/// its curve than to any other. False for bands and bars, which have no line for a name.
 bool names_find_places(const Panel& panel, const PanelLayout& layout);
 
 }  // namespace dynlab::inline figures

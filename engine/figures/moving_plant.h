@@ -8,8 +8,8 @@ namespace dynlab::inline figures {
 
 /// A drawing of a process whose parts follow signals. Lengths in cm from the lower left corner, y upwards.
 
-/// A part slides by (x, y) per unit of its signal, or turns about (x, y), to the left by `by` radians per unit. It is
-/// drawn as it stands at the value `drawn_at`.
+/// A part slides by (x, y) per unit of its signal, or turns about (x, y), to the left by `by` radians per unit. The
+/// drawing shows it at the value `drawn_at`.
 struct PlantPart {
     std::string signal, unit;  ///< which it follows, in which unit
     int on = -1;               ///< the part that carries it, before it in the list; -1 for none
@@ -34,13 +34,13 @@ struct PlantDrawing {
 
     /// Throws InvalidArgument for pieces whose lists differ in length or parts that are not there.
     void validate() const;
-    /// The piece where it stands while the parts' signals have these values, one a part.
+    /// The piece at its place for these values of the parts' signals, one per part.
     PlantShape placed(const PlantShape& piece, const Vector& values) const;
 };
 
-/// A rig beside the records that it follows, in one figure: the panel `picture` shows it at some instants, and the
-/// panel behind it by 1 + k the signal of part k over time in seconds, first as measured, then as simulated, where
-/// there are both.
+/// A plant next to the data that it follows, in one figure: the panel `picture` shows the plant at some instants, and
+/// the panel 1 + k after it the signal of part k over time in seconds, first as measured, then as simulated, if both
+/// exist.
 struct Motion {
     PlantDrawing plant;
     std::size_t picture = 0;

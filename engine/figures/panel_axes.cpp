@@ -62,7 +62,7 @@ void widen(Range& range, double span) {
     range = {middle - 0.5 * span, middle + 0.5 * span};
 }
 
-/// The numbers of x stand side by side with air between them, those of y one above the other.
+/// The numbers of x are side by side with space between them, those of y one above the other.
 struct AxisLength {
     double cm;
     bool upright;
@@ -110,8 +110,8 @@ Axis finer_axis(const Axis& axis, AxisLength length) {
     return best;
 }
 
-/// As many numbers as fit, four where there is room and more than one even in little, as one tells no scale. A wanted
-/// step is never divided.
+/// As many numbers as fit: four if there is room, and at least two even in a small panel, because one number shows no
+/// scale. A requested step is never divided.
 Axis fitted_axis(Range range, bool log, double count, std::optional<double> step, AxisLength length) {
     constexpr double kMinCount = 1.2, kMax = 20;
     Axis axis = make_axis(range, log, count, step);

@@ -15,7 +15,7 @@ bool is_of_author(const Message& message) {
     return message.id() == "{}" && std::holds_alternative<std::string>(message.arguments().front());
 }
 
-/// Also where an author's text is a part of a message: the name of a model in front of its fit.
+/// Also applies to an author's text inside a message: the name of a model before its fit.
 Message with_commas_of_authors(const Message& message, const Reader& reader) {
     if (is_of_author(message)) return Message::verbatim(with_decimal_commas(message_text(message, reader)));
     std::vector<MessageArgument> arguments = message.arguments();

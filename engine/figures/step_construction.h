@@ -6,13 +6,13 @@
 
 namespace dynlab::inline figures {
 
-/// A step response with what was read off it with a ruler. Times in seconds on the record's own axis.
+/// A step response with the values that were read from it with a ruler. Times are in seconds on the data's time axis.
 struct StepConstruction {
     struct Reading {
         std::string name;  ///< "settling", "overshoot", or the part of the change as written ("28.3 %")
         double time, value;
     };
-    Vector t, y;      ///< the record
+    Vector t, y;      ///< the data
     Vector smoothed;  ///< the curve the readings come from; none when empty
     double step_time = 0;
     double initial = 0, final = 0;  ///< output levels

@@ -22,10 +22,10 @@ inline constexpr const char* kFrameColor = "#404040";
 inline constexpr const char* kGridColor = "#dddddd";
 inline constexpr const char* kReferenceColor = "#606060";
 inline constexpr const char* kAnnotationColor = "#202020";
-inline constexpr double kBandEdgeWidth = 0.4;  ///< where bands have to be told apart
+inline constexpr double kBandEdgeWidth = 0.4;  ///< for panels with several bands
 inline constexpr double kFrameWidth = 0.45, kGridWidth = 0.3, kReferenceWidth = 0.55, kArrowWidth = 0.5;
 
-/// Places in the marker list with a meaning of their own.
+/// Places in the marker list with a fixed meaning.
 inline constexpr int kOpenCircle = 4, kCross = 8;
 /// Poles are cross, plus, asterisk; zeros open circle, square, triangle: a pair for each of three models.
 inline constexpr int kPoleMarkers = 3;
@@ -42,7 +42,7 @@ struct CurveAppearance {
 /// Colors after Okabe and Ito (2008), ordered so that neighbors differ in luminance and stay apart for color-blind
 /// readers and in gray print; dash pattern and marker change with the color, and again where the colors repeat.
 CurveAppearance appearance_of(const Curve& curve, int index);
-/// Gives a curve the look of the one with this index wherever it may stand, unless its color was chosen.
+/// Gives a curve the look of the one with this index regardless of its place, unless its color was chosen.
 void fix_appearance(Curve& curve, int index);
 std::string dash_pattern(int dash);
 /// Size and line of a curve's markers, in gnuplot's units of size and in points: a wide line makes markers larger

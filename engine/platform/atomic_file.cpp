@@ -46,7 +46,7 @@ void place_file_atomically(const fs::path& from, const fs::path& to) {
         if (errno != EXDEV) fail_to_write(to, errno);
     }
     replace_by_copy(from, target);
-    std::error_code ignored;  // the destination is whole; a left-over source harms nobody
+    std::error_code ignored;  // the destination is complete; a left-over source does no harm
     fs::remove(from, ignored);
 }
 

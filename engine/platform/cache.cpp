@@ -112,7 +112,7 @@ std::uint64_t bytes_in(const fs::path& entry) {
     return total;
 }
 
-/// Out of sight in one step, so that nobody finds half an entry; then deleted.
+/// Moves the entry out of sight in one step, so that no process finds an incomplete entry; then deletes it.
 void drop(const fs::path& root, const fs::path& entry) {
     std::error_code error;
     if (!fs::is_directory(entry, error)) {
@@ -131,7 +131,8 @@ struct UnfinishedFile {
     FileDescriptor file;
 };
 
-/// A file of the digest and then the bytes. Nobody waits for the disk: what a power failure leaves does not match.
+/// A file of the digest, followed by the bytes. No caller waits for the disk: a file that a power failure truncated
+/// does not match its digest.
 UnfinishedFile write_unfinished(const fs::path& root, std::string_view bytes) {
     for (;;) {
         std::string path = root / (prefix_in_use(kUnfinished) + "XXXXXX");
@@ -244,7 +245,7 @@ std::optional<fs::path> Cache::find(const std::string& name) const {
 
 fs::path Cache::prepare() const {
     std::error_code error;
-    fs::create_directories(root_, error);  // somebody may have deleted the whole cache
+    fs::create_directories(root_, error);  // the user may have deleted the whole cache
     return new_folder(root_, kUnfinished);
 }
 
@@ -272,7 +273,7 @@ void Cache::erase_entry(const std::string& name) const {
 
 /// Two processes at once may lose what one of them added; the next look comes a little later then.
 void Cache::add_growth(std::uint64_t bytes) const {
-    std::uint64_t growth = limit_bytes_;  // nobody has looked yet
+    std::uint64_t growth = limit_bytes_;  // used before the first check of the size
     std::ifstream(root_ / kGrowth) >> growth;
     growth = std::min(growth, limit_bytes_) + bytes;
     if (growth > limit_bytes_ / 16) {

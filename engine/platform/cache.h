@@ -15,8 +15,8 @@ struct CacheUse {
     std::size_t from_cache = 0, made = 0;
 };
 
-/// The name of an entry: its kind, and a digest of what makes such entries (the program, unless another maker is given)
-/// and of all they are made from, in its order. Equal names stand for equal contents.
+/// The name of an entry: its kind, and a digest of the maker of such entries (the program, unless another maker is
+/// given) and of all inputs of the entry, in order. Equal names mean equal contents.
 class EntryName {
   public:
     explicit EntryName(std::string kind, std::string_view maker = program_identity());

@@ -36,8 +36,9 @@ constexpr char kBoxProgram[] = "bwrap";
     ::_exit(0);
 }
 
-/// bubblewrap binds its inner process to the outer one late: where the outer one is killed before, as it is when this
-/// program is, the inner one stays for ever. So somebody has to kill the whole group. Gives what survive() reads.
+/// bubblewrap binds its inner process to the outer one late: if the outer one is killed earlier, as happens when this
+/// program is killed, the inner one stays forever. Another process must therefore kill the whole group. Returns the
+/// pipe that survive() reads.
 int changes_of_boxes() {
     static const Pipe changes = [] {
         Pipe pipe;
@@ -53,7 +54,7 @@ void notify_change(int changes, pid_t change) {
 }
 
 struct EndOfSandbox {
-    pid_t leader = 0;  ///< 0: it was no box
+    pid_t leader = 0;  ///< 0: no sandbox
     ~EndOfSandbox() {
         if (leader > 0) notify_change(changes_of_boxes(), -leader);
     }
@@ -62,7 +63,7 @@ struct EndOfSandbox {
 /// Everything exec needs, made before the fork: between fork and exec only async-signal-safe calls are allowed.
 struct Launch {
     std::string program, folder;
-    int changes = -1;  ///< of a box, to be told of it; it has a session of its own, so that it has no terminal
+    int changes = -1;  ///< of a sandbox, to report its end; a sandbox has a separate session, without a terminal
     std::vector<std::string> arguments, environment;
     std::vector<char*> argument_pointers, environment_pointers;
     std::optional<std::chrono::milliseconds> processor_time;

@@ -47,10 +47,10 @@ struct ChildResult {
 /// What execve takes: pointers to the texts, and a null pointer behind them.
 std::vector<char*> pointers_to(std::vector<std::string>& texts);
 
-/// Runs a program in a process group of its own and waits. What the program leaves running in that group is
-/// killed when it ends. Ctrl-C (see InterruptScope) kills the group and throws Interrupted. Throws
-/// MissingProgram (with `package`, the Debian package that holds it) when the program is not found,
-/// EnvironmentError when it cannot be started.
+/// Runs a program in a separate process group and waits. Processes that the program leaves in that group are killed
+/// when it ends. Ctrl-C (see InterruptScope) kills the group and throws Interrupted. Throws MissingProgram (with
+/// `package`, the Debian package that contains it) if the program is not found, EnvironmentError if it cannot be
+/// started.
 ChildResult run_child(const ChildOptions& options, const std::string& package);
 
 /// The same without waiting: start, do other work, then wait(). Output beyond a pipe's worth (about 1 MB) holds
@@ -61,10 +61,10 @@ class ChildProcess {
     ~ChildProcess();  ///< kills the group when not waited for
     ChildProcess(ChildProcess&&) noexcept;
     ChildProcess& operator=(ChildProcess&&) noexcept;
-    /// The standard input of a child that was started with `input_later`, whole; the child must read it before it
-    /// writes more than a pipe holds. A child that has ended takes nothing; wait() tells.
+    /// The complete standard input of a child that was started with `input_later`; the child must read it before it
+    /// writes more than a pipe holds. A child that has ended ignores the input; wait() reports the end.
     void give_input(const std::string& input);
-    bool ended() const;  ///< by itself: wait() will return at once
+    bool ended() const;  ///< without a kill: wait() returns at once
     int id() const;      ///< of the process, before wait()
     ChildResult wait();
 

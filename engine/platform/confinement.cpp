@@ -130,7 +130,7 @@ void confine_to_memory() {
                          SCMP_SYS(sigaltstack), SCMP_SYS(exit), SCMP_SYS(exit_group), SCMP_SYS(restart_syscall)});
     allow(filter.get(), {SCMP_SYS(getpid), SCMP_SYS(gettid), SCMP_SYS(clock_gettime), SCMP_SYS(gettimeofday),
                          SCMP_SYS(time), SCMP_SYS(getrandom), SCMP_SYS(getrusage)});
-#ifdef __SANITIZE_ADDRESS__  // which tries through a pipe of its own whether memory can be read
+#ifdef __SANITIZE_ADDRESS__  // which tests through a pipe whether memory can be read
     allow(filter.get(), {SCMP_SYS(pipe), SCMP_SYS(pipe2)});
 #endif
     // abort() signals the own process.

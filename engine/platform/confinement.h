@@ -11,10 +11,11 @@ struct ProcessLimits {
     int open_files = 128;
 };
 
-/// Gives up, for good, what untrusted scripts, archives and answers could abuse: starting processes (threads remain),
-/// the network, signals to others, tracing, mounting, other users' rights, memory and messages shared with others,
-/// kernel interfaces; and sets the limits. Uses seccomp and setrlimit; seccomp answers EPERM. Call it when all programs
-/// that are needed are running. Throws EnvironmentError where the kernel refuses.
+/// Permanently gives up the rights that untrusted scripts, archives and answers could abuse: starting processes
+/// (threads remain), the network, signals to other processes, tracing, mounting, other users' rights, memory and
+/// messages shared with other processes, kernel interfaces; and sets the limits. Uses seccomp and setrlimit; seccomp
+/// answers EPERM. Call this function when all needed programs are running. Throws EnvironmentError if the kernel
+/// refuses.
 void confine_process(const ProcessLimits& limits);
 
 /// The part of it that is limits: of this process, and of each that it starts.
@@ -23,9 +24,9 @@ void limit_process(const ProcessLimits& limits);
 /// The part of it that is no limit: only the system calls are given up. The process counts as confined.
 void refuse_harmful_calls();
 
-/// Gives up everything but memory, time and the files that are open, for good: for code that reads what is not trusted
-/// and answers on a pipe. What such code needs of files must have been read; Utf8Locale works. Throws EnvironmentError
-/// where the kernel refuses.
+/// Permanently gives up everything except memory, time and the open files: for code that reads untrusted data and
+/// answers on a pipe. Such code must have read its files already; Utf8Locale works. Throws EnvironmentError if the
+/// kernel refuses.
 void confine_to_memory();
 
 /// From now on no other process without the machine's rights reads or writes the memory of this one, nor that of its

@@ -12,8 +12,8 @@ struct XXH3_state_s;
 
 namespace dynlab::inline platform {
 
-/// SHA-256 (FIPS 180-4) as 64 lower-case hexadecimal digits: what identifies a file for others, since nobody can make
-/// another file of the same hash. Other programs give the same (sha256sum).
+/// SHA-256 (FIPS 180-4) as 64 lower-case hexadecimal digits: an identifier for files that other programs also compute
+/// (sha256sum). No one can construct another file with the same hash.
 class Sha256 {
   public:
     Sha256();
@@ -34,15 +34,15 @@ std::string hmac_sha256(std::string_view key, std::initializer_list<std::string_
 /// Compares in constant time, so that an attacker cannot find a secret byte by byte.
 bool equal_in_constant_time(std::string_view a, std::string_view b);
 
-/// 128 bits that tell contents apart, as 32 lower-case hexadecimal digits.
+/// 128 bits that distinguish contents, as 32 lower-case hexadecimal digits.
 struct Digest {
     std::uint64_t high = 0, low = 0;
     std::string hex() const;
     bool operator==(const Digest&) const = default;
 };
 
-/// XXH3 (128 bits), as quick as memory is read: for the keys of this program's own caches. Contents that differ by
-/// accident differ in it; somebody who wants to can make two of the same digest.
+/// XXH3 (128 bits), as fast as memory is read: for the keys of this program's own caches. Contents that differ by
+/// accident have different digests; an attacker can construct two contents with the same digest.
 class DigestStream {
   public:
     DigestStream();
@@ -51,7 +51,7 @@ class DigestStream {
     DigestStream& operator=(const DigestStream&) = delete;
 
     DigestStream& add(const void* bytes, std::size_t size);
-    /// The number of bytes and then the bytes, so that it tells where one part ends and the next begins.
+    /// The number of bytes and then the bytes, so that the boundaries of the parts are unambiguous.
     DigestStream& add_part(std::string_view bytes);
     DigestStream& add_file(const std::filesystem::path& file);  ///< throws EnvironmentError
     Digest digest() const;

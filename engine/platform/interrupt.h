@@ -17,7 +17,7 @@ class InterruptScope {
     InterruptScope& operator=(const InterruptScope&) = delete;
 };
 
-/// While one of these lives, a program is not ended for being still there: it has workers to tell, or a user to serve.
+/// While an object of this class exists, the program gets time to end: it has workers to notify, or a user to serve.
 class SlowEnding {
   public:
     SlowEnding();

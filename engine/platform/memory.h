@@ -2,8 +2,8 @@
 
 namespace dynlab::inline platform {
 
-/// Keeps freed memory for the next use instead of giving it back to the system at once: the system clears every page
-/// that it hands out, which takes longer than most that is done with long records. Call it once, first.
+/// Keeps freed memory for the next use and does not return it to the system at once: the system clears every page that
+/// it provides, which takes longer than most operations on long data. Call it once, at the start.
 void keep_freed_memory();
 /// Gives it back where it is much: after something large that does not come again.
 void return_freed_memory();

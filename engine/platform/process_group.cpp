@@ -124,7 +124,7 @@ ProcessGroup::ProcessGroup(pid_t leader, FileDescriptor output, FileDescriptor e
       output_bytes_(limits.output_bytes),
       give_up_(limits.give_up),
       heeds_interrupt_(limits.heeds_interrupt) {
-    ::setpgid(leader, leader);  // by parent and child, so that the group exists whoever runs first
+    ::setpgid(leader, leader);  // by parent and child, so that the group exists regardless of which runs first
     start_clock();
     for (const FileDescriptor* stream : {&output_, &error_output_}) {
         ::fcntl(stream->get(), F_SETFL, O_NONBLOCK);

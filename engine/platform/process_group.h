@@ -18,16 +18,16 @@ struct Pipe {
     FileDescriptor read_end, write_end;
 };
 
-/// What a freshly forked child does first (async-signal-safe): a group of its own, death with its parent, default
-/// signals. Returns false when the parent is gone already.
+/// The first actions of a freshly forked child (async-signal-safe): a separate group, death with its parent, default
+/// signals. Returns false if the parent no longer exists.
 bool become_group_leader(pid_t parent);
 
 /// fork(2) of a copy that dies with this process. 0 in the copy; below 0, with errno, where there is none.
 pid_t fork_bound_copy();
 
-/// Starts a program as the leader of a group of its own, without a copy of this process's memory (vfork). It is killed
-/// when the thread that calls this ends, however that comes. `streams`: its standard input, output and error output.
-/// Returns its id; below 0, with errno, where it cannot be started.
+/// Starts a program as the leader of a separate group, without a copy of this process's memory (vfork). The program is
+/// killed when the calling thread ends for any reason. `streams`: its standard input, output and error output. Returns
+/// its id; below 0, with errno, if it cannot be started.
 pid_t start_bound_program(const std::string& program, std::vector<std::string> arguments,
                           std::vector<std::string> environment, const std::array<int, 3>& streams);
 
@@ -52,8 +52,8 @@ class ProcessGroup {
     ProcessGroup& operator=(const ProcessGroup&) = delete;
 
     void start_clock();  ///< the timeout counts from now on
-    /// Collects output until the leader ends, by itself or killed at a limit. Throws Interrupted,
-    /// where it heeds it.
+    /// Collects output until the leader exits or is killed at a limit. Throws Interrupted if the group heeds
+    /// interrupts.
     ChildResult wait();
     bool leader_exited() const;
     pid_t leader() const { return leader_; }

@@ -4,7 +4,7 @@
 
 namespace dynlab::inline platform {
 
-/// Path, size and time of writing of an installed file, which stand for its content; empty when there is no such file.
+/// Path, size and modification time of an installed file, used instead of its content; empty if there is no such file.
 std::string file_stamp(const std::filesystem::path& file);
 
 /// Identity of the running program: the stamps of the program, of the other dynlab programs in its folder and of the

@@ -17,7 +17,7 @@ inline constexpr const char* kSandboxProgram = "dynlab-boxed";
 /// The file of the program that runs; that of dynlab where one of the others does.
 std::filesystem::path running_program();
 
-/// Where scripts/start records the source tree from which the installed `dynlab` was built:
+/// The file in which scripts/start notes the source tree from which the installed `dynlab` was built:
 /// <prefix>/share/dynlab/source.
 std::filesystem::path source_record(const std::filesystem::path& dynlab);
 
@@ -27,14 +27,14 @@ std::vector<std::filesystem::path> programs_next_to(const std::filesystem::path&
 /// The folder of a program's own libraries, <prefix>/lib/dynlab beside it; those of portable builds have one.
 std::optional<std::filesystem::path> library_folder_of(const std::filesystem::path& program);
 
-/// Folder with data/, lessons/ and report_templates/: $DYNLAB_HOME, else <prefix>/share/dynlab beside the
-/// running program, else the source tree that holds its build folder; with a course of one's own (DYNLAB_COURSE) what
-/// this and the course hold together. Throws EnvironmentError that lists the places tried.
+/// The folder with data/, lessons/ and report_templates/: $DYNLAB_HOME, else <prefix>/share/dynlab next to the running
+/// program, else the source tree that contains its build folder. With a user's course (DYNLAB_COURSE), the folder
+/// merges this folder and the course. Throws EnvironmentError that lists the searched places.
 std::filesystem::path shared_folder();
 /// The same for a given program file, without the environment.
 std::filesystem::path shared_folder_of(const std::filesystem::path& program);
-/// The file of one's own course that is found as this one below shared_folder(), for messages and for what is beside
-/// it; any other file as it is.
+/// The file of the user's course that appears as this file below shared_folder(), for messages and for finding related
+/// files; any other file unchanged.
 std::filesystem::path own_file(const std::filesystem::path& file);
 
 /// A program or Debian package dynlab needs at run time, for `dynlab doctor`.

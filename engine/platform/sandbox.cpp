@@ -20,9 +20,9 @@ void append(Words& words, std::initializer_list<std::string> more) {
     words.insert(words.end(), more);
 }
 
-/// run_child begins a session for it; all of the box stays in the group that it leads, and ends with it.
-/// A file system of its own that holds /usr and nothing else of the machine. Whoever calls as root has no more rights
-/// in it than others: with root's, what is mounted to be read could be mounted again to be written.
+/// run_child starts a session for the sandbox; all of its processes stay in the group that it leads, and end with it.
+/// The sandbox has a separate file system that contains /usr and nothing else of the machine. A caller with root rights
+/// has no more rights inside than other users: with root's rights, read-only mounts could be mounted again as writable.
 Words bare_box() {
     Words words = {kBubblewrap,  "--unshare-all", "--die-with-parent",
                    "--clearenv", "--cap-drop",    "ALL",

@@ -11,7 +11,8 @@ class SigningKey {
   public:
     /// The key pair of a seed of 32 bytes (section 5.1.5). Throws std::invalid_argument for another size.
     static SigningKey of_seed(std::string_view seed);
-    /// The key pair that belongs to a secret text and a purpose: of one secret, keys of other purposes tell nothing.
+    /// The key pair that belongs to a secret text and a purpose. A key reveals nothing about the keys of other
+    /// purposes.
     static SigningKey derived(std::string_view secret, std::string_view purpose);
 
     const std::string& public_key() const { return public_key_; }  ///< 64 digits

@@ -6,8 +6,8 @@
 
 namespace dynlab::inline platform {
 
-/// Stands for each byte that is not UTF-8 (RFC 3629: overlong forms, surrogates and what is beyond U+10FFFF are not)
-/// and for each half of a pair in UTF-16.
+/// Replaces each byte that is not UTF-8 (RFC 3629: overlong forms, surrogates and values beyond U+10FFFF are not) and
+/// each half of a pair in UTF-16.
 inline constexpr char32_t kNoCharacter = 0xFFFD;
 
 /// Takes the first character off `utf8`, which is not empty; nothing, and one byte taken, where it is not UTF-8.
@@ -31,9 +31,9 @@ std::size_t columns_of(char32_t character);
 std::size_t columns_of(std::string_view utf8);
 
 /// A letter without accent, in lower case: "É" -> "e", "Ł" -> "l", "Æ" -> "ae"; ligatures, full-width and mathematical
-/// letters as the plain ones they show (the compatibility decomposition of Unicode, UAX #15); decimal digits of any
-/// script -> 0 to 9 (UTF-8). Letters that stand for themselves as they are; "" for any other character, also
-/// raised and lowered ones, which mark a footnote.
+/// letters as their plain letters (the compatibility decomposition of Unicode, UAX #15); decimal digits of any script
+/// -> 0 to 9 (UTF-8). Letters without a plain form are returned unchanged; "" for any other character, also raised and
+/// lowered ones, which mark a footnote.
 std::string folded_letter(char32_t character);
 
 /// What leaves no trace when letters are compared: accents on their own or combining, the soft hyphen, signs without
@@ -50,6 +50,6 @@ Script script_of(char32_t character);
 bool is_right_to_left(char32_t character);  ///< a letter of a script that is written so
 bool is_mark(char32_t character);           ///< an accent or a vowel sign that combines with the letter before it
 bool is_capital(char32_t character);        ///< of a script that knows capitals
-bool is_ideograph(char32_t character);      ///< of a script that writes words without spaces: each stands for itself
+bool is_ideograph(char32_t character);      ///< of a script that writes words without spaces: each is a word
 
 }  // namespace dynlab::inline platform

@@ -7,10 +7,10 @@
 
 namespace dynlab::inline platform {
 
-/// Keeps scripts from writing over what is not theirs: a file may be replaced where a run of dynlab wrote it and nobody
-/// has changed it since. What runs wrote is recorded in a ledger, a line a file: SHA-256 of its path, and SHA-256 of
-/// its content; "-" and that of content that is about to be put in place (a run that is killed then leaves the one or
-/// the other); or "?" where nothing was written after all.
+/// Prevents scripts from overwriting files of other programs and users: a file may be replaced only if a run of dynlab
+/// wrote it and it has not changed since. A ledger lists the written files, one line per file: SHA-256 of its path, and
+/// SHA-256 of its content; "-" and the SHA-256 of content that is about to be put in place (a killed run then leaves
+/// the old or the new content); or "?" if nothing was written after all.
 class WrittenFiles {
   public:
     enum class Others { kKept, kReplaced };
@@ -18,8 +18,8 @@ class WrittenFiles {
     /// may be replaced.
     explicit WrittenFiles(std::filesystem::path ledger, Others others = Others::kKept);
     ~WrittenFiles();  ///< settles
-    /// Notes what stands in the files now, figures that were drawn after the script included: what is changed later is
-    /// somebody else's. A prompt does so after each statement.
+    /// Notes the current content of the files, including figures that were drawn after the script: later changes are
+    /// those of another user. A prompt calls this function after each statement.
     void settle();
     WrittenFiles(const WrittenFiles&) = delete;
     WrittenFiles& operator=(const WrittenFiles&) = delete;
@@ -37,7 +37,7 @@ class WrittenFiles {
     Others others_;
     struct Taken {
         std::string path_hash;
-        std::string others_content;  ///< SHA-256 of a file of somebody else that may be replaced; empty for none
+        std::string others_content;  ///< SHA-256 of a foreign file that may be replaced; empty for none
     };
     [[noreturn]] void refuse(const std::filesystem::path& file, bool was_ours) const;
     mutable std::mutex mutex_;

@@ -60,7 +60,7 @@ class OtherRecord {
     fs::path place_, record_, aside_;
 };
 
-/// The work and the records that its checks look at.
+/// The submission and the data sets that its checks use.
 class CheckedWork {
   public:
     explicit CheckedWork(const ChecksOrder& order)
@@ -96,12 +96,12 @@ class CheckedWork {
         return message_text(message, {catalog_of(script_.header.language), &option_name, &authors_});
     }
 
-    /// The folder of a hidden record, or of that of a rerun.
+    /// The folder of a hidden data set, or of that of a rerun.
     fs::path place_of(const std::string& data_set, const std::string& run) const {
         return run == kHiddenRecords ? job_.hidden_folder : kRecords / data_set;
     }
 
-    /// Hidden records of what the checks speak of, and those of reruns.
+    /// Creates hidden data sets of the plants that the checks mention, and data sets of reruns.
     void make_records(ReadChecks& read, const CheckResults& listed) {
         std::set<std::string> reruns;
         for (const EvaluatedCheck& one : listed.checks)

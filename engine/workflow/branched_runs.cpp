@@ -20,7 +20,7 @@
 namespace dynlab::inline workflow {
 namespace {
 
-/// Records go through the pipe behind their length.
+/// Sends the length of the run results through the pipe, then their bytes.
 bool send_record(int pipe, const std::string& bytes) {
     const std::uint64_t size = bytes.size();
     return write_all(pipe, reinterpret_cast<const char*>(&size), sizeof size) &&
@@ -46,7 +46,7 @@ RunRecord received_record(int pipe) {
     return from_cbor<RunRecord>(bytes);
 }
 
-/// The script's world in a process of its own, from its beginning to the last choice.
+/// The script's environment in a separate process, from its beginning to the last choice.
 class BranchingRun {
   public:
     BranchingRun(const RunRequest& request, int pipe)
@@ -104,7 +104,7 @@ class BranchingRun {
 
     const RunRequest& request_;
     int pipe_;
-    GnuplotRenderer renderer_;  // what scripts save for a place is nobody's
+    GnuplotRenderer renderer_;  // figures that the script saves for one choice are discarded
     ScriptEnvironment run_environment_;
     std::vector<ScriptPart> parts_;
     std::map<std::string, std::string> before_;  ///< figures made before the cell

@@ -10,10 +10,10 @@ namespace dynlab::inline workflow {
 
 using SliderNumbers = std::map<std::string, double>;
 
-/// Runs a script up to the part that holds `cell`, once, and what follows once for each of `choices`, each time in a
-/// copy of the process that stands there: what comes before the cell must not depend on them. `take` gets the records
-/// in the order of the choices, their figures without curves: what a page draws them from is there for those that
-/// differ from the one before the cell. A run that fails, or ends its process, says so in its record. Throws
+/// Runs a script once up to the part that contains `cell`, and the rest once for each of `choices`, each time in a copy
+/// of the process at that point: the code before the cell must not depend on the choices. `take` gets the run results
+/// in the order of the choices, without the curves of their figures; the page's drawing data are there for figures that
+/// differ from those before the cell. A run that fails, or ends its process, reports this in its run results. Throws
 /// EnvironmentError and Interrupted.
 void run_from_cell(const RunRequest& request, const std::string& cell, const std::vector<SliderNumbers>& choices,
                    const std::function<void(RunRecord&&)>& take);

@@ -83,7 +83,7 @@ class DataLooker {
                 signals_.push_back({fmt::format("{}{}", name, j + 1), "", matrix->col(j)});
     }
 
-    /// Most signals are as long as the record.
+    /// The length of the data is that of most signals.
     void find_length() {
         std::map<Index, int> times;
         for (const LookedSignal& signal : signals_) ++times[signal.numbers.size()];
@@ -224,7 +224,7 @@ class DataLooker {
         return line(Message("first rows:")) + aligned(table);
     }
 
-    /// Long records are drawn by the least and the largest of each of many short stretches.
+    /// Long data are drawn by the minimum and the maximum of each of many short stretches.
     static Curve thinned(const Vector& x, const Vector& y) {
         constexpr Index kMaxPointCount = 4000;
         Curve curve;

@@ -20,9 +20,9 @@ std::vector<Demonstration> demonstrations();
 /// Throws EnvironmentError that suggests the nearest name, or lists all, for one that does not exist.
 Demonstration find_demonstration(const std::string& name);
 
-/// What a demonstration tells, for a terminal: one page for each code cell, with the text before it, the code (every
-/// line marked with '>'), what it printed and the files of its figures. Text after the last code cell makes a page of
-/// its own. Nothing is shown beyond the cell in which an error stopped the run.
+/// The text of a demonstration, for a terminal: one page for each code cell, with the text before it, the code (every
+/// line marked with '>'), the printed text and the files of its figures. Text after the last code cell forms a separate
+/// page. No page follows the cell in which an error stopped the run.
 std::vector<std::string> pages_of(const PercentScript& script, const RunRecord& record);
 
 }  // namespace dynlab::inline workflow

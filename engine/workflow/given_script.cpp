@@ -95,7 +95,7 @@ fs::path meant_script(const fs::path& given) {
     if (folder)
         throw EnvironmentError("the file {} is missing in the folder {}, {}", kScriptOfFolder, given.string(), near);
     if (!near.empty()) throw EnvironmentError("file not found: {}, {}", given.string(), near);
-    return script;  // whoever reads it tells what is wrong with it
+    return script;  // the reader of the script reports any problem
 }
 
 std::string language_of_work(const std::filesystem::path& work) {

@@ -6,13 +6,13 @@
 
 namespace dynlab::inline workflow {
 
-/// What `given` is where its ending tells that it is neither script nor notebook, and what `dynlab COMMAND` wants
-/// instead: "report.md is the report's text: give the folder, dynlab report my-work". Empty for whatever else, folders
-/// and what is not there among it.
+/// If the ending of `given` shows that it is neither script nor notebook: what it is, and what `dynlab COMMAND` expects
+/// instead: "report.md is the report's text: give the folder, dynlab report my-work". Empty for all other arguments,
+/// including folders and missing files.
 Message why_no_script(const std::filesystem::path& given, const std::string& command);
 
-/// What stands in `folder` instead of the file `name`, behind a comma in a sentence that it is missing: "but
-/// Analysis.lua: call it analysis.lua". Empty where nothing is called nearly so.
+/// The file in `folder` with a name similar to the missing file `name`, for the end of a sentence after a comma: "but
+/// Analysis.lua: call it analysis.lua". Empty if no file has a similar name.
 Message nearly_called(const std::filesystem::path& folder, const std::string& name);
 
 /// The script that is meant: the file itself, or the analysis.lua of a folder. Throws EnvironmentError for a folder

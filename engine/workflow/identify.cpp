@@ -13,7 +13,7 @@
 namespace dynlab::inline workflow {
 namespace {
 
-/// Pieces of the script; {s} is a suffix that tells the outputs apart.
+/// Pieces of the script; {s} is a suffix that distinguishes the outputs.
 constexpr const char* kBegin = R"(-- ---
 -- title: Identification report
 -- template: identify
@@ -137,7 +137,7 @@ std::string structure_of(const IdentifyRequest& request) {
 
 std::string search_of(const IdentifyRequest& request, const std::string& suffix) {
     using namespace fmt::literals;
-    // A delay is looked for up to a tenth of the record.
+    // The search for a delay covers up to a tenth of the data.
     const std::string delay =
         request.delay ? "" : fmt::format("TdMax = (data{0}.t[data{0}.N] - data{0}.t[1])/10, ", suffix);
     const std::string zeros = request.zeros ? fmt::format("{}", *request.zeros) : "{0, 2}";

@@ -64,7 +64,7 @@ std::string subtitle_of(const Lesson& lesson) {
     return "";
 }
 
-/// Lessons of one number stand in the order that their subtitles tell; others keep theirs.
+/// Sorts lessons of one number by their subtitles; other lessons keep their order.
 void put_in_order(std::vector<Lesson>& lessons) {
     const auto number = [](const Lesson& lesson) { return lesson.slug.substr(0, lesson.slug.find('_')); };
     for (auto first = lessons.begin(); first != lessons.end();) {

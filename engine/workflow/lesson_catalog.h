@@ -30,16 +30,17 @@ struct Lesson {
     std::filesystem::path tasks(const std::string& language) const { return folder / ("tasks." + language + ".lua"); }
     /// Questions that a talk on the lesson may meet, with model answers: for instructors only; may be absent.
     std::filesystem::path talk_questions() const { return folder / "talk.md"; }
-    /// Of lessons that end with a report of its own form: the worked solution's; no such file for others.
+    /// The reference solution's report, for lessons with a specific report form; the file does not exist for other
+    /// lessons.
     std::filesystem::path report(const std::string& language) const { return folder / ("report." + language + ".md"); }
 };
 
 /// The lesson in a folder of anybody's, called like the folder; nothing where there is no lesson.lua.
 std::optional<Lesson> lesson_in(const std::filesystem::path& folder);
 
-/// All lessons, sorted by number and, where two have the same, by subtitle (3.1, 3.2): those in the folders that
-/// DYNLAB_LESSONS lists (separated by colons), those of one's own course (DYNLAB_COURSE), and the installed ones; of
-/// two of one name the first counts.
+/// All lessons, sorted by number and, for equal numbers, by subtitle (3.1, 3.2): those in the folders that
+/// DYNLAB_LESSONS lists (separated by colons), those of the user's course (DYNLAB_COURSE), and the installed ones; of
+/// two lessons with one name the first counts.
 std::vector<Lesson> lessons();
 
 /// The lesson whose slug starts with `name` ("02", "2", "02_least") or holds it as a word ("crane"), or that in a

@@ -8,7 +8,7 @@
 
 namespace dynlab::inline workflow {
 
-/// The simulated data sets among those that a run read, sorted: groups may have records of their own of them.
+/// The simulated data sets among those that a run read, sorted: groups may have their own versions of these data sets.
 std::vector<std::string> simulated_data_of(const RunRecord& record);
 
 /// Those that the lesson's worked solution reads, however its script spells or computes their names: it is run for

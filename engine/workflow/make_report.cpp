@@ -84,7 +84,7 @@ void add_self_check(const Lesson& lesson, ReportRequest& request, bool with_answ
                                 file, 1);
 }
 
-/// The report that stands beside a lesson's script, or the lesson itself woven.
+/// The report next to a lesson's script, or the woven lesson itself.
 ReportRequest report_of_lesson(const Lesson& lesson, const fs::path& output, const std::string& language) {
     PercentScript script = read_percent_script(lesson.script());
     if (!language.empty()) script.header.language = language;

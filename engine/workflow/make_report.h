@@ -37,7 +37,7 @@ struct ReportRequest {
                                                      ///< again, and not at all where the script fails
 };
 
-/// The document of a request whose script gave `record`, which must outlive it.
+/// The document of a request, filled from the run results `record`, which must outlive it.
 DocumentSource document_source(const ReportRequest& request, const RunRecord& record);
 
 /// The step of the timings that the cells' own are part of.
@@ -54,12 +54,12 @@ struct ReportResult {
     std::optional<CacheUse> long_calls, figures;          ///< of the script, when it was run
 };
 
-/// The report of a lesson (`name`, any unique beginning: its worked solution), of a student's folder (analysis.lua
+/// The report of a lesson (`name`, any unique beginning: its reference solution), of a student's folder (analysis.lua
 /// and report.md; the group's seed from group.toml) or of a script. A lesson is woven, or fills the report.LANGUAGE.md
-/// beside it. Without `output` a lesson's goes to the current folder (02_least_squares.pdf), a folder's into it
-/// (report.pdf), a script's beside it (FILE.pdf). The default of `language` is the language of the script; a folder's
-/// stands in its report.md. Throws EnvironmentError for a folder without these files, a lesson without a report in the
-/// language asked for, a language asked of a folder or script.
+/// in its folder. Without `output`, a lesson's report goes to the current folder (02_least_squares.pdf), a folder's
+/// into the folder (report.pdf), a script's next to the script (FILE.pdf). The default of `language` is the language of
+/// the script; a folder's language is in its report.md. Throws EnvironmentError for a folder without these files, a
+/// lesson without a report in the requested language, or a language given with a folder or script.
 ReportRequest report_of(const std::string& subject, const std::filesystem::path& output = {},
                         const std::string& language = {});
 /// The task sheet of a lesson: its text, data and code without the solutions, as students get it, with the places for
@@ -67,9 +67,9 @@ ReportRequest report_of(const std::string& subject, const std::filesystem::path&
 /// 02_least_squares_sheet.pdf. Throws EnvironmentError for a lesson without tasks in that language.
 ReportRequest sheet_of(const std::string& lesson, const std::filesystem::path& output = {},
                        const std::string& language = {});
-/// The questions that a talk on the lesson may meet (its talk.md: a heading `# Question?` each, then the answer), with
-/// the model answers for whoever asks; default: 05_thruster_talk.pdf. Slots in the answers are filled from a run of
-/// the worked solution. Throws EnvironmentError for a lesson without such questions.
+/// The questions that a talk on the lesson may raise (its talk.md: a heading `# Question?` each, then the answer), with
+/// the model answers for the instructor; default: 05_thruster_talk.pdf. Slots in the answers are filled from a run of
+/// the reference solution. Throws EnvironmentError for a lesson without such questions.
 ReportRequest talk_sheet_of(const std::string& lesson, bool with_answers, const std::filesystem::path& output = {});
 /// The model answers of a lesson for students who have submitted: the text with the reference solutions, figures and
 /// tables, without code and printed output, or the report in the same folder in `language` if there is one.
@@ -82,11 +82,11 @@ ReportRequest report_of_script(const PercentScript& script, const std::filesyste
 /// the cells for any other script with text. Nothing of a run that failed and of a lesson's master.
 std::vector<UnplacedEntries> entries_without_place(const PercentScript& script, const RunRecord& record);
 
-/// Runs the script and makes the document; `output` appears whole or stays as it was. With unchanged inputs (script,
-/// template, data, seed, program) and an untouched output nothing is done; with unchanged code and data the script is
-/// not run again. Where the script stops with an error, the report shows what there is, and the error in its place;
-/// where a slot or a reference points to nothing, a bold ?? stands in its place.
-/// Throws DocumentError when no document can be made.
+/// Runs the script and makes the document; `output` is written completely or stays unchanged. With unchanged inputs
+/// (script, template, data, seed, program) and an unmodified output, nothing is done; with unchanged code and data, the
+/// script is not run again. If the script stops with an error, the report shows the results up to there, and the error
+/// at its place; a slot or a reference without a target is shown as a bold ??. Throws DocumentError if no document can
+/// be made.
 ReportResult make_report(const ReportRequest& request);
 
 }  // namespace dynlab::inline workflow

@@ -16,7 +16,7 @@ class ProcessCopy {
     ProcessCopy& operator=(const ProcessCopy&) = delete;
 
     bool is_copy() const { return process_ == 0; }  ///< on which side one is
-    void wait();                                    ///< until it ends by itself
+    void wait();                                    ///< until it exits
 
   private:
     pid_t process_ = -1;

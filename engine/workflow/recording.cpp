@@ -22,7 +22,7 @@ std::string lua_texts(const std::vector<std::string>& texts) {
     return quoted.size() == 1 ? quoted.front() : fmt::format("{{{}}}", fmt::join(quoted, ", "));
 }
 
-/// What stands behind a table to give its field: .y, or ["water level"].
+/// The Lua suffix that selects a table's field: .y, or ["water level"].
 std::string field_of(const std::string& name) {
     return is_variable_name(name) ? "." + name : "[" + lua_text(name) + "]";
 }

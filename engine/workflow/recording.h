@@ -8,7 +8,7 @@
 
 namespace dynlab::inline workflow {
 
-/// A file does not tell when its samples were taken. The message says so; what can be done depends on who asks.
+/// A file does not state when its samples were taken. The message says so; the possible remedies depend on the caller.
 class UnknownSampling : public EnvironmentError {
   public:
     using EnvironmentError::EnvironmentError;
@@ -59,7 +59,7 @@ class Recording {
     ImportOptions options_;  ///< of the call of load
     LoadedData loaded_;
     std::string struct_time_;   ///< member that holds the instants; empty when no struct does
-    std::string sampling_;      ///< third argument of iddata, in which {0} stands for the variable
+    std::string sampling_;      ///< third argument of iddata, in which {0} is replaced by the variable
     std::string instants_;      ///< of uneven sampling, alike; empty when it is even
     std::string inter_sample_;  ///< option of iddata; empty for held inputs
     std::string doubt_;         ///< a line that the script prints

@@ -60,7 +60,7 @@ bool ReportCache::unchanged() const {
     try {
         const auto [output, inputs] = from_cbor<ReportFacts>(*known, ValueLimits::own());
         return output == digest_or_nothing(output_) && dynlab::unchanged(inputs);
-    } catch (const ValueError&) {  // spoilt: then the report is made
+    } catch (const ValueError&) {  // corrupt: the report is then made
         return false;
     }
 }

@@ -68,7 +68,7 @@ std::optional<RunRecord> RunCache::load_entry() const {
         const auto folder = cache_.find(entry_of_run(entry_, inputs));
         if (!folder) return {};
         return unpacked(read_file(*folder / kRecord), *folder);
-    } catch (const std::exception&) {  // deleted meanwhile, or spoilt: then the script is run
+    } catch (const std::exception&) {  // deleted meanwhile, or corrupt: the script is then run
         return {};
     }
 }

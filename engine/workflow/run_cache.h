@@ -9,18 +9,18 @@
 
 namespace dynlab::inline workflow {
 
-/// Keeps what runs produced, figures drawn, so that a script is not run again when only its prose or its template
-/// was edited. A run is known by the script's code (all its code cells), its folder, the seed, the
-/// sliders, the program and what it read. Runs that failed are not remembered, nor those whose output names lines of
-/// the script, which an edit moves.
+/// Keeps the results of runs, with figures drawn, so that a script is not run again when only its prose or its template
+/// was edited. The key of a run consists of the script's code (all its code cells), its folder, the seed, the sliders,
+/// the program and the files it read. The cache keeps neither failed runs nor runs whose output names lines of the
+/// script, which an edit moves.
 class RunCache {
   public:
     /// `cache` must outlive it.
     RunCache(const ReportRequest& request, FigureFormat format, const Cache& cache);
 
-    /// The record of an equal run, its figures' files in the cache.
+    /// The results of an equal run, with the figures' files in the cache.
     std::optional<RunRecord> load_entry() const;
-    /// All figures of the record must have been drawn. Where it cannot be kept, nothing is.
+    /// All figures of the run results must have been drawn. If the results cannot be kept, nothing is stored.
     void save_entry(const RunRecord& record) const;
 
   private:

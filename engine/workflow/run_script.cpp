@@ -17,7 +17,7 @@
 namespace dynlab::inline workflow {
 namespace {
 
-/// A record's name as a file name: letters, digits and dashes only, with its number in front so that no two collide.
+/// A figure's name as a file name: letters, digits and dashes only, with its number first so that no two collide.
 std::string figure_file_stem(const std::string& name, std::size_t number) {
     std::string stem = name;
     std::replace_if(

@@ -34,19 +34,19 @@ struct RunRequest {
     CallsInParts* parts = nullptr;    ///< makes calls of montecarlo in parts
 };
 
-/// Runs a script from top to bottom. An error of the script stands in the record; Ctrl-C throws Interrupted. Throws
-/// DocumentError for a value of a slider that the script has not.
+/// Runs a script from top to bottom. The run results contain an error of the script; Ctrl-C throws Interrupted. Throws
+/// DocumentError for a value of a slider that the script does not have.
 RunRecord run_script(const RunRequest& request, GnuplotRenderer& renderer);
 
 /// The answers that the script's header declares and the run did not give, "G1 (model), gain (number)"; empty where
 /// there are none.
 std::string missing_answers(const PercentScript& script, const RunRecord& record);
 
-/// Names of the record's figures, in the order in which the script made them.
+/// Names of the figures of the run results, in the order in which the script made them.
 std::vector<std::string> figures_in_order(const RunRecord& record);
 
-/// Queues every figure of the record for a file of `folder` named after it and numbered in that order, and notes the
-/// file in the record; renderer.finish() makes them whole. Texts and numbers are those of the language.
+/// Queues every figure of the run results for a file of `folder` with its name and its number in that order, and notes
+/// the file in the run results; renderer.finish() completes the files. Texts and numbers are those of the language.
 void draw_figures(RunRecord& record, GnuplotRenderer& renderer, const std::filesystem::path& folder,
                   FigureFormat format, const std::string& language);
 

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// With its time, by which one tells whether a PDF is older than its sources.
+/// Copies the modification time, too, which shows whether a PDF is older than its sources.
 void copy_with_time(const fs::path& from, const fs::path& to) {
     fs::copy_file(from, to);
     fs::last_write_time(to, fs::last_write_time(from));
@@ -99,7 +99,7 @@ void make_script_folder(const fs::path& script, const fs::path& folder) {
     fs::last_write_time(text, fs::last_write_time(script));
     std::set<std::string> names = FilesNamed(beside).in(read.source);
     if (const fs::path literature = bibliography_of(read); !literature.empty()) {
-        // A link would bring in a file from elsewhere, and with it what its owner never meant to hand in.
+        // A link would bring in a file from elsewhere, which its owner never meant to submit.
         if (const Message fault = why_no_bibliography(literature); !fault.empty())
             throw DocumentError(Place{literature}, fault);
         names.insert(literature.filename());

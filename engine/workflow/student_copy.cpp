@@ -32,7 +32,7 @@ void put(std::string& text, const std::string& slot, const std::string& value) {
     if (at != std::string::npos) text.replace(at, slot.size(), value);
 }
 
-/// report_templates/slides.md, or slides.fr.md where the language has one of its own.
+/// report_templates/slides.md, or slides.fr.md if the language has a separate template.
 fs::path template_file(const std::string& name, const std::string& language) {
     const fs::path folder = shared_folder() / "report_templates", own = folder / (name + "." + language + ".md");
     return fs::is_regular_file(own) ? own : folder / (name + ".md");

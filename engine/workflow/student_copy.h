@@ -10,11 +10,11 @@
 namespace dynlab::inline workflow {
 
 /// Makes a student's folder for a lesson: analysis.lua (the script without its solutions), report.md, group.toml and a
-/// link to the data; with a group's seed a folder `data` with records of the group's own (variant_data.h) of what
-/// the lesson loads (lesson_data.h: it may be run for this), and with those that the lesson brings along. Report and
-/// tasks are in `language` ("en", "fr"), the lesson's when empty; tasks as far as the lesson has tasks.LANGUAGE.lua.
-/// The folder appears whole or not at all, with what `further` puts into it. Throws EnvironmentError when `folder`
-/// exists and is not empty, or cannot be made.
+/// link to the data. With a group's seed, a folder `data` replaces the link. It contains the group's own versions
+/// (variant_data.h) of the data sets that the lesson loads (lesson_data.h: the lesson may be run for this), and the
+/// data sets that the lesson contains. Report and tasks are in `language` ("en", "fr"), the lesson's when empty; tasks
+/// only if the lesson has tasks.LANGUAGE.lua. The folder is created completely, with everything that `further` puts
+/// into it, or not at all. Throws EnvironmentError if `folder` exists and is not empty, or cannot be made.
 void make_student_copy(const Lesson& lesson, const std::filesystem::path& folder,
                        std::optional<std::uint32_t> group_seed = {}, const std::string& language = {},
                        const std::function<void(const std::filesystem::path& growing)>& further = {});

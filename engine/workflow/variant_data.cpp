@@ -26,7 +26,7 @@ again, and `rig_truth("{name}", {{specimen = {seed}}})` returns the true values.
 {key} {seed}
 )";
 
-/// The record as load() gives it from a MAT file: experiments as structs of vectors.
+/// The data in the form in which load() returns a MAT file: experiments as structs of vectors.
 VariableTable variables_of_record(const PlantValues& record);
 
 /// What each kind of value is in a data file.

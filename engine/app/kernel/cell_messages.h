@@ -15,7 +15,7 @@ struct CellOrder {
     std::size_t cursor = 0;  ///< inspect: a byte of the code
 };
 
-/// What it tells; the last is "done".
+/// A message from the cell process; the last one of an order is "done".
 struct CellNews {
     /// "begun": from here on it can be interrupted; "print": `text`; "display", "result": `data`; "progress"; "failed":
     /// `text` and `lines`; "done": with what was asked for.

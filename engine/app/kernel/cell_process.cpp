@@ -34,7 +34,7 @@ std::string how_it_ended(int status) {
     return fmt::format("exit code {}", WEXITSTATUS(status));
 }
 
-/// Starts a process for cells whenever asked, and tells how the one before ended.
+/// Starts a process for cells on each request and reports how the previous process ended.
 [[noreturn]] void keep_ready(Channel orders) {
     const FileDescriptor nowhere(::open("/dev/null", O_RDWR | O_CLOEXEC));
     ::dup2(nowhere.get(), STDIN_FILENO);

@@ -11,8 +11,8 @@
 
 namespace dynlab::inline app {
 
-/// The cells of a notebook in a process of their own, so that one that ends its process takes nothing else with it: a
-/// new process stands ready then. One thread asks; interrupt() and stop() may be called by others.
+/// Runs the cells of a notebook in a separate process, so that a cell that ends its process affects nothing else: a new
+/// process is then ready. Only one thread calls ask(); other threads may call interrupt() and stop().
 class CellProcess {
   public:
     CellProcess();   ///< to be made before the program has threads
@@ -21,14 +21,15 @@ class CellProcess {
     CellProcess& operator=(const CellProcess&) = delete;
 
     using Listener = std::function<void(const CellNews&)>;
-    /// Has an order obeyed, and hands over what is told, the last of it "done". Text that is printed quickly comes in
-    /// larger pieces. Where the process ends instead, gives the sentence about it, and a new one has been started.
+    /// Executes an order and passes each message to the listener; the last message is "done". Text that is printed
+    /// quickly arrives in larger pieces. If the process ends instead, ask() returns a sentence about the end, and a new
+    /// process is already running.
     std::optional<std::string> ask(const CellOrder& order, const Listener& listener);
 
     /// Stops the cell that runs, and no other: where none does, nothing happens. What is asked for between the order
     /// and the cell's beginning is kept until then.
     void interrupt();
-    void stop();  ///< ends the process for good
+    void stop();  ///< ends the process permanently
 
   private:
     void start();

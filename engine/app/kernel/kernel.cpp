@@ -43,7 +43,7 @@ std::size_t characters_of(std::string_view text) {
     return characters_in(text).size();
 }
 
-/// A member of what somebody sent, of the type of `otherwise`, which stands for another or none.
+/// A member of a received message. Returns `otherwise` if the member is missing or has another type.
 template <class T>
 T member(const json& object, const char* name, T otherwise) {
     const auto found = object.find(name);
@@ -135,7 +135,8 @@ class Kernel {
         });
     }
 
-    /// Of the next message; none where none comes in this time. Nobody needs the key to send any number of them.
+    /// The parts of the next message; empty if none arrives in this time. A sender needs no key to send any number of
+    /// parts.
     static std::vector<zmq::message_t> parts_from(zmq::socket_t& socket, int milliseconds) {
         zmq::pollitem_t readable{socket, 0, ZMQ_POLLIN, 0};
         std::vector<zmq::message_t> parts;
@@ -166,7 +167,7 @@ class Kernel {
                         i + 1 < frames.size() ? zmq::send_flags::sndmore : zmq::send_flags::none);
     }
 
-    /// The main thread and that of the control socket both tell everybody.
+    /// The main thread and the thread of the control socket both publish.
     void publish(const std::string& type, json content, const KernelMessage& parent) {
         const std::lock_guard lock(output_mutex_);
         KernelMessage message = wire_.made(type, std::move(content), parent);
@@ -322,12 +323,12 @@ class Kernel {
         return failure.is_null() || !member(request.content, "stop_on_error", true);
     }
 
-    /// Runs a cell and tells everybody what it gives; null, or what the reply says of its failure.
+    /// Runs a cell and publishes its output. Returns null, or the failure for the reply.
     json run(const std::string& code, const KernelMessage& request, bool silent, std::string& result) {
         json failure;
         bool progress = false;
         const auto fail = [&](const std::string& name, const std::string& what, const std::vector<std::string>& lines) {
-            take_waiting(0);  // what comes behind this message was sent by somebody who may have read it
+            take_waiting(0);  // the sender of the following messages may already have read it
             failure = {{"ename", name}, {"evalue", what}, {"traceback", lines}};
             if (!silent) publish("error", failure, request);
             failure["status"] = "error";

@@ -4,8 +4,8 @@
 
 namespace dynlab::inline app {
 
-/// A Jupyter kernel for the notebooks that `connection_file` names the sockets of (protocol 5.3), until it is told to
-/// end. To be called before the program has threads. `version`: of dynlab. Throws EnvironmentError.
+/// A Jupyter kernel for the notebooks whose sockets `connection_file` names (protocol 5.3). It runs until a message
+/// requests its end. Call this function before the program has threads. `version`: of dynlab. Throws EnvironmentError.
 void serve_kernel(const std::filesystem::path& connection_file, const std::string& version);
 
 }  // namespace dynlab::inline app

@@ -9,8 +9,8 @@ namespace dynlab::inline app {
 /// ~/.local/share/jupyter; empty when none is known. With a prefix below PREFIX/share/jupyter.
 std::filesystem::path kernels_folder(const std::string& prefix = {});
 
-/// Makes `program` known to Jupyter in that folder, in place of what was there, and returns the description's file.
-/// Throws EnvironmentError.
+/// Registers `program` with Jupyter in that folder and replaces an earlier registration. Returns the description's
+/// file. Throws EnvironmentError.
 std::filesystem::path install_kernel(const std::filesystem::path& folder, const std::filesystem::path& program);
 bool remove_kernel(const std::filesystem::path& folder);  ///< false where there was none
 

@@ -63,7 +63,7 @@ KernelMessage MessageWire::read(const std::vector<std::string>& frames) {
     return message;
 }
 
-/// A header has a name of its own, so that no two messages have the same signature.
+/// Each header has a unique id, so that no two messages have the same signature.
 void MessageWire::refuse_repetition(const std::string& signature) {
     const std::lock_guard lock(reading_);
     if (!read_.insert(signature).second) throw BadMessage("a message was received twice");

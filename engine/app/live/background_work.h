@@ -24,7 +24,7 @@ class BackgroundWork {
     ~BackgroundWork() { stop(); }
     /// `notify` is called in a thread of this object after each new result.
     void start(std::function<void()> notify);
-    void stop();  ///< gives everything up; whoever waits for a PDF gets none
+    void stop();  ///< cancels all work; a request that waits for a PDF gets none
 
     void document_changed(std::map<std::string, double> slider_values);
     /// Whether work may start a second after the last change without a request: the document has run and a browser tab

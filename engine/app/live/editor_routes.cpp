@@ -71,7 +71,7 @@ void serve_editor(WebServer& server, ScriptRunner& runner, LiveDocument& documen
         const auto [source, place] = from_json<SavedRun>(asked.body);
         SourceFiles::Outcome outcome{true, {}};
         if (source) outcome = sources.save(*source);
-        if (outcome.written) document.run_at(place);  // before the folder tells of the save
+        if (outcome.written) document.run_at(place);  // before the folder watch reports the save
         page.set_sources(sources.digests());
         return PageReply{json_of(outcome.now), kJsonType, outcome.written ? 200 : kConflict};
     });

@@ -7,8 +7,8 @@
 
 namespace dynlab::inline app {
 
-/// What the page's editor asks while somebody types, by POST: completion and help from the functions and the state of
-/// the script as far as it has run, its variables, what is wrong with a text, and the run of a cell.
+/// Serves the requests of the page's editor while the user types, by POST: completion and help from the functions and
+/// the state of the executed part of the script, its variables, mistakes in a text, and the run of a cell.
 void serve_editor(WebServer& server, ScriptRunner& runner, LiveDocument& document, LivePage& page,
                   SourceFiles& sources);
 

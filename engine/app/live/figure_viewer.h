@@ -13,7 +13,7 @@ namespace dynlab::inline app {
 /// A page on which figures appear as they are made, the newest first.
 class FigureViewer {
   public:
-    /// `late` gets an address for somebody who came with one that was old or used. Throws EnvironmentError.
+    /// `late` receives a new address when a visitor opened an expired or used address. Throws EnvironmentError.
     explicit FigureViewer(std::function<void(const std::string& address)> late = [](const std::string&) {});
     ~FigureViewer();
     std::string address() const { return server_.address(); }

@@ -7,8 +7,8 @@
 
 namespace dynlab::inline app {
 
-/// Tells when files of folders change (inotify on the folders, so that files which editors replace, and files that come
-/// back, are seen). Not for one that a folder lies in, nor for what lies below it.
+/// Reports when files in folders change (inotify on the folders, so that files which editors replace, and files that
+/// reappear, are seen). It does not watch parent folders or subfolders.
 class FolderWatch {
   public:
     FolderWatch();  ///< throws EnvironmentError

@@ -21,7 +21,7 @@ using namespace std::chrono_literals;
 constexpr auto kQuiet = 30ms;
 /// Setting a page takes longer than most cells: those that are over by then are set with it.
 constexpr auto kShortRun = 100ms;
-/// A page that was recalled runs when the reader has it: the run would take the processors from the browser.
+/// A page from the cache runs after the reader has it: the run would otherwise take the processors from the browser.
 constexpr auto kRunAfterRecall = 1500ms;
 /// A page is kept for the next time when nothing has changed for so long: that takes disk and processor.
 constexpr auto kKeepAfter = 3s;

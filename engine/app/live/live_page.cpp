@@ -110,8 +110,8 @@ void LivePage::show(const SetDocument& document, const PercentScript& script, co
                   [&](const auto& entry) { return entry.second.version + kVersionsKept < version_; });
 }
 
-/// Code that is not printed and printed nothing has a piece of its own, without HTML, so that a reader can go to it. Of
-/// documents that show their script.
+/// Gives code that is not shown and printed nothing an empty piece, so that a reader can go to it. Applies to documents
+/// that show their script.
 void LivePage::add_unseen_cells(const PercentScript& script, std::map<std::string, std::string>& html) {
     std::vector<PagePiece>& pieces = content_.pieces;
     const std::string name = script.file.filename().string();

@@ -35,7 +35,7 @@ std::optional<PageContent> PageMemory::load_entry(const ReportRequest& request) 
         KnownPage known = from_cbor<KnownPage>(*entry, ValueLimits::own());
         if (known.origins != digest_of_origins(request) || !unchanged(known.inputs)) return {};
         return std::move(known.content);
-    } catch (const std::exception&) {  // spoilt, or a file cannot be read: then the page is made
+    } catch (const std::exception&) {  // corrupt, or a file cannot be read: the page is then made again
         return {};
     }
 }

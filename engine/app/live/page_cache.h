@@ -7,9 +7,9 @@
 
 namespace dynlab::inline app {
 
-/// Keeps the page of a document that has run to its end, so that it is whole at once when it is opened again and
-/// neither script, template nor data have changed: of each document the last page. It never throws; what cannot be kept
-/// is not, and nothing is recalled where that cannot be told.
+/// Caches the last page of each document that has run to its end. The page appears complete at once when the document
+/// is opened again and neither script, template nor data have changed. The cache never throws: a page that cannot be
+/// cached is not cached, and there is no cache hit if changes cannot be ruled out.
 class PageMemory {
   public:
     std::optional<PageContent> load_entry(const ReportRequest& request) const;

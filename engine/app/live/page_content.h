@@ -12,7 +12,7 @@
 
 namespace dynlab::inline app {
 
-/// How a cell of the script stands.
+/// The state of a cell of the script.
 struct CellState {
     std::string state;    ///< "waiting", "running", "done", "recalled", "failed"
     double seconds = 0;   ///< that it took

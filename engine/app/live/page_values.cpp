@@ -93,7 +93,7 @@ int show(Call& call) {
     return 0;
 }
 
-/// What stands at the figures that the page's views draw themselves.
+/// The labels of the figures that the page's views draw themselves.
 Message label_called(const std::string& name) {
     if (name == "time") return axis_label(Message("time"), "s");
     if (name == "delay") return axis_label(Message("delay"), "s");

@@ -67,7 +67,8 @@ void take_orders(WebServer& server, LiveDocument& document, Permissions& permiss
     });
 }
 
-/// What a page that edits may read and write: the script, a template that is the document's own, and who hands in.
+/// The files that an editing page may read and write: the script, a template that belongs to the document, and the file
+/// with the authors of the submission.
 SourceFiles sources_of(const ReportRequest& request) {
     std::vector<fs::path> files = {request.script.file};
     if (fs::weakly_canonical(request.template_file.parent_path()) ==
@@ -91,7 +92,7 @@ PageReply not_allowed(const LivePage& page) {
             kForbidden};
 }
 
-/// What was made in the background, and what is made now to hand in.
+/// Serves the PDF made in the background, and creates the files for submission on request.
 void serve_work(WebServer& server, BackgroundWork& background, const Permissions& permissions, const LivePage& page) {
     server.on_get("/document.pdf", [&](const PageRequest&) {
         if (!permissions.granted()) return not_allowed(page);
@@ -130,7 +131,7 @@ void serve_notes(WebServer& server, PageNotes& notes) {
     });
 }
 
-/// The one preview of a document: another that begins is told of it.
+/// The only preview of a document: a second one that starts learns of the first.
 class OnlyPreview {
   public:
     explicit OnlyPreview(const std::string& document) : file_(file_for(document)), lock_(file_) {}
@@ -156,7 +157,7 @@ class OnlyPreview {
     FileLock lock_;
 };
 
-/// Replies that wait for the work must come while the server still is; what the work tells needs the server.
+/// Replies that wait for the work must arrive while the server still exists, and the work's messages need the server.
 struct StopsBeforeServer {
     BackgroundWork& work;
     ~StopsBeforeServer() { work.stop(); }

@@ -14,10 +14,10 @@ struct PreviewOptions {
     std::function<void(const std::string& address, Visit)> opened = [](const std::string&, Visit) {};
 };
 
-/// Serves a document that follows its source until Ctrl-C (which throws Interrupted); returns at once when another
-/// program does. A folder whose scripts nobody has
-/// allowed to run yet is shown and asked about. To be called before the program has threads. Throws DocumentError and
-/// EnvironmentError for what cannot be opened.
+/// Serves a document that follows its source until Ctrl-C (which throws Interrupted). Returns at once if another
+/// program already serves it. For a folder whose scripts are not allowed to run yet, the page shows the document and
+/// asks for permission. Call this function before the program has threads. Throws DocumentError and EnvironmentError
+/// for files that cannot be opened.
 void preview(const PreviewOptions& options);
 
 }  // namespace dynlab::inline app

@@ -23,18 +23,18 @@ struct RunOrder {
     std::size_t cursor = 0, number = 0;
 };
 
-/// What scripts find in the process besides dynlab's own functions, and what becomes of their figures.
+/// What scripts find in the process in addition to dynlab's own functions, and the treatment of their figures.
 struct RunnerEnvironment {
     std::string prelude;        ///< Lua that runs before every script, with workbench.show (page_values.h); none: empty
-    bool draws_figures = true;  ///< those of a record, for documents; else records come without them
+    bool draws_figures = true;  ///< draws the figures of the run results, for documents; else the results have none
     bool keeps_end = true;      ///< the state behind the last part, for what may be written there
 };
 
-/// What it tells.
+/// A message of the runner.
 struct RunnerNews {
-    /// "split": a process goes on from here, its line comes with the message; "begun": a part begins; "progress": of
-    /// something long in it, so much; "done": it is over, `record` has everything up to here; "ended": all parts are
-    /// over, or one failed; "answer": to a question, shown["answer"] is JSON.
+    /// "split": another process continues, and its line comes with the message; "begun": a part starts; "progress": the
+    /// progress of a long calculation; "done": the part is finished, `record` contains everything up to here; "ended":
+    /// all parts are finished, or one failed; "answer": to a question, shown["answer"] is JSON.
     std::string kind;
     std::size_t part = 0;
     std::int64_t process = 0;  ///< number of the process that goes on

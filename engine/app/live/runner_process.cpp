@@ -41,7 +41,7 @@ using Clock = std::chrono::steady_clock;
 /// A state is kept where it took at least this long to come there from the one before.
 constexpr double kWorthKeeping = 0.003;
 
-/// The script's world, as far as it has run.
+/// The environment of the executed part of the script.
 struct RunEnvironment {
     Cache cache;
     CallCache calls{cache};
@@ -112,7 +112,7 @@ class RunnerProcess {
         if (!line_.send(cbor_of(news))) ::_exit(0);
     }
 
-    /// From the state here: of the script as far as it has run, else of a script without a line.
+    /// Answers from the current state: that of the executed part of the script, or an empty script if nothing has run.
     void answer(const RunOrder& question) {
         if (!run_environment_ && !empty_environment_) {
             empty_environment_ = std::make_unique<RunEnvironment>(RunOptions(), "en", requested_.prelude);

@@ -14,9 +14,9 @@
 
 namespace dynlab::inline app {
 
-/// Runs a script again and again while it is being written: parts before the first that has changed are not run again.
-/// The script runs in processes of its own (app/live/runner_process.h), so that a run can always be stopped and takes
-/// nothing with it when it fails. For one thread, but for `ask`.
+/// Runs a script repeatedly while the user writes it: parts before the first changed part are not run again. The script
+/// runs in separate processes (app/live/runner_process.h), so that a run can always be stopped and a failure affects
+/// nothing else. Only one thread may use the object, except for `ask`.
 class ScriptRunner {
   public:
     /// Which cells of the script a run is about, by their ids; empty: all of them.
@@ -37,8 +37,8 @@ class ScriptRunner {
     /// before. Returns the part with which it begins; throws EnvironmentError when there is none any more.
     std::size_t run(const ReportRequest& request, const std::filesystem::path& figure_folder,
                     const std::set<std::filesystem::path>& changed, const RunExtent& extent = {});
-    /// The answer to a question about the state of the script as far as it has run, JSON; empty when there is none
-    /// within two seconds. For any thread.
+    /// The answer to a question about the state of the executed part of the script, as JSON; empty if there is no
+    /// answer within two seconds. Any thread may call it.
     std::string ask(RunOrder question);
     void stop();                          ///< gives the run up; the next begins behind the last part that was kept
     void forget() { settings_.clear(); }  ///< the next run begins with the first part
@@ -47,7 +47,7 @@ class ScriptRunner {
 
     /// To be polled for reading; -1 when nothing runs.
     int descriptor() const;
-    /// What the run tells next; waits for it. A process that died is told as a failure of its part.
+    /// The next message of the run; waits for it. A process that died is reported as a failure of its part.
     RunnerNews next();
 
     const std::vector<ScriptPart>& parts() const { return parts_; }

@@ -34,9 +34,9 @@ class SourceFiles {
     std::vector<SourceText> read() const;                ///< those that are there, and are text in UTF-8
     std::map<std::string, std::string> digests() const;  ///< by number, as the page's script counts them
 
-    /// Writes the file whole or not at all. When it has changed since `saved.digest`, nothing is written, and what
-    /// stands there now is given instead; else the digest of what stands there now, without its text. Throws
-    /// EnvironmentError when it cannot be written, and for a text that is not UTF-8.
+    /// Writes the file completely or not at all. If the file has changed since `saved.digest`, nothing is written, and
+    /// the outcome contains the current text of the file; otherwise it contains only the new digest. Throws
+    /// EnvironmentError if the file cannot be written, and for a text that is not UTF-8.
     struct Outcome {
         bool written = false;
         SourceText now;

@@ -28,7 +28,7 @@ struct ShownHelp {
 DYNLAB_DESCRIBE(ShownHelp, text)
 
 ShownCompletion completion_of(lua_State* L, const std::string& text) {
-    constexpr std::size_t kMax = 200;  // more than somebody reads
+    constexpr std::size_t kMax = 200;  // more than a user reads
     Completion found = complete(L, text);
     if (found.candidates.size() > kMax) found.candidates.resize(kMax);
     ShownCompletion shown{text.substr(text.size() - found.typed), {}, {}, {}, 0};

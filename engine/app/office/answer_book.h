@@ -27,8 +27,8 @@ struct SubmittedWork {
     std::vector<Student> authors;
 };
 
-/// The written answers of a class, without names. Each submission is read once: scripts at once, packs, which are
-/// unpacked in a sandbox, by a thread of its own.
+/// The written answers of a class, without names. Each submission is read once: scripts at once; packs, which are
+/// unpacked in a sandbox, by a separate thread.
 class AnswerBook {
   public:
     /// `more` is called by that thread when it has read some.

@@ -16,7 +16,7 @@ namespace {
 using Words = std::vector<std::string>;
 using Names = std::set<std::string, std::less<>>;
 
-/// A command that the page has, and its options; with a value where a "=" stands behind the name.
+/// A command that the page may run, and its options; a "=" after the name marks an option with a value.
 struct AllowedCommand {
     Words words;
     Names options;

@@ -26,7 +26,7 @@ struct OfficeResult {
     int code = 0;
     std::string words;  ///< what it printed
 };
-/// Runs it as a process of its own in the course's folder; it speaks `language`.
+/// Runs the command as a separate process in the course's folder; its messages are in `language`.
 OfficeResult run_office_command(const OfficeCommand& command, const std::filesystem::path& course,
                                 const std::string& language);
 

@@ -65,7 +65,7 @@ struct OfficeMarking {
 DYNLAB_DESCRIBE(OfficeMarking, assignments, questions, checks, assignment, question, check, asked, solution, graded,
                 comments, answers)
 
-/// The checks of the newest result, with what the results of one submission tell of them.
+/// The checks of a lab, as the results of one graded submission describe them.
 std::vector<OfficeCheck> checks_of_lab(Course& course, const Assignment& lab) {
     std::vector<OfficeCheck> checks;
     std::error_code none;
@@ -91,7 +91,7 @@ std::string check_of_question(const std::vector<OfficeCheck>& checks, const std:
     return by_hand.size() == 1 ? by_hand.front() : "";
 }
 
-/// The first one with a check of its own, where there is one.
+/// The first question with its own check, if there is one.
 std::string first_question(const std::vector<std::string>& questions, const std::vector<OfficeCheck>& checks) {
     for (const std::string& question : questions)
         if (std::ranges::find(checks, "q" + question, &OfficeCheck::id) != checks.end()) return question;
@@ -190,7 +190,7 @@ std::string OfficeViews::marking(const std::string& assignment, const std::strin
                                one.text.empty() ? 0 : alike[one.text] - 1, one.is_reading,
                                shown_entry(entries[work[i].group])});
     }
-    // In another order for each question, which nobody can guess.
+    // The order differs for each question and is unpredictable.
     const auto lot = [&](const OfficeAnswer& one) {
         return hmac_sha256(course_.key(), {"dynlab order of answers\n", all.question, "\n", one.name});
     };

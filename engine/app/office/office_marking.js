@@ -1,12 +1,13 @@
-// Marking: all answers to one question side by side, without names, by the keyboard alone. A mark is stored by a command that
-// refuses where somebody else has changed it since it was shown here; what was shown is this page's word for "seen".
+// Marking: all answers to one question next to each other, without names, by the keyboard alone. A command stores a
+// mark and refuses it if another user has changed the mark since this page showed it; the page sends the shown entry as
+// "seen".
 import { Lost, ask, command, connected, session } from "./office_session.js";
 import { button, choice, make, shown, textBlocks } from "./office_parts.js";
 import { say } from "./office_words.js";
 
 const kCommentKeys = "abdefghil", kPointsKey = "p", kWriteKey = "c";
 const kMaxDigit = 9;
-const kUsualMax = 5;  // points, where nobody knows the most
+const kUsualMax = 5;  // points, if the maximum is unknown
 const $ = (id) => document.getElementById(id);
 
 let data = null, at = 0, chosen = {}, cards = [], undone = [], waiting = 0, root = null;
@@ -242,7 +243,8 @@ function drawNow(name) {
 const isSame = (entry, { points, reason }) => entry.points === points && entry.reason === (points === null ? "" : reason);
 
 const readEntry = async (assignment, check, name) => entryOf(await ask("entry", { assignment, check, name }));
-/// Runs the command until somebody answers. One whose answer was lost may have run: its entry tells.
+/// Repeats the command until a reply arrives. A command whose reply was lost may have run: its entry shows whether it
+/// did.
 async function ordered(assignment, check, name, wanted, seen) {
   for (let sure = true; ; sure = false) {
     try {

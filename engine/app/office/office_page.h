@@ -13,8 +13,8 @@ struct OfficeOptions {
     std::function<void(const std::string& address, Visit)> opened = [](const std::string&, Visit) {};
 };
 
-/// Serves the instructor's page of a course until Ctrl-C (which throws Interrupted). The page changes nothing itself:
-/// each of its actions is a command of `dynlab course`, run as a process of its own. Throws EnvironmentError where
+/// Serves the instructor's page of a course until Ctrl-C (which throws Interrupted). The page itself changes nothing:
+/// each of its actions is a command of `dynlab course` that runs as a separate process. Throws EnvironmentError if
 /// there is no course.
 void serve_office(const OfficeOptions& options);
 

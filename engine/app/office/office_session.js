@@ -50,7 +50,8 @@ export function open() {
 }
 
 let turn = Promise.resolve();
-/// Runs `dynlab course WORDS`; gives {line, code, words}. Throws Lost where nobody answers: then nobody knows whether it ran.
+/// Runs `dynlab course WORDS`; returns {line, code, words}. Throws Lost if there is no reply: the command may or may
+/// not have run.
 export function command(words) {
   const entry = { line: `dynlab course ${words.join(" ")}`, code: null, words: "", file: words.find((word) => word.startsWith("--out=exports/"))?.slice(14) };
   session.log.push(entry);

@@ -1,4 +1,4 @@
-// Student: somebody by any name, with all submissions, times, receipts, marks and history.
+// Student: a search for a student by any name, with all submissions, times, receipts, marks and history.
 import { ask } from "./office_session.js";
 import { askAndRun, button, duration, make, reasonField, row, shown, table } from "./office_parts.js";
 import { say } from "./office_words.js";
@@ -10,7 +10,7 @@ let root = null, people = [], name = "";
 export const setPeople = (all) => { people = all; };
 export const setName = (wanted) => { name = wanted; };
 
-/// Without accents and case, as somebody types it.
+/// The text without accents and case, for the search.
 const folded = (text) => text.normalize("NFD").replace(/\p{M}/gu, "").toLowerCase();
 function found(typed) {
   const words = folded(typed).split(/\s+/).filter(Boolean);

@@ -3,7 +3,7 @@ import { ask } from "./office_session.js";
 import { askAndRun, button, duration, inFile, make, reasonField, row, table } from "./office_parts.js";
 import { say } from "./office_words.js";
 
-const kShownAtOnce = 12;  // rows of one kind, until somebody opens the rest
+const kShownAtOnce = 12;  // rows of one kind, until the user opens the rest
 
 let root = null, showStudent = () => {};
 export const onStudent = (show) => { showStudent = show; };

@@ -1,5 +1,5 @@
-// What the editor says of code while it is written: names that could stand at the cursor, the call around it, help, and
-// what is wrong. The session answers, from the functions and the state of the script.
+// The editor's assistance while the user writes code: possible names at the cursor, the call around it, help, and
+// mistakes. The session answers, from the functions and the state of the script.
 import { session } from "./session.js";
 import { cellAt } from "./script_mode.js";
 
@@ -124,8 +124,9 @@ function markMistake(cm, { line, column, kind, text }, marks) {
   marks.push(cm.markText({ line: line - 1, ch: range[0] }, { line: line - 1, ch: range[1] }, { className: "mistake" + open, title: text }));
 }
 
-/// `open()` gives the name of the file that is shown, and the line of its text now that was a line of the run's. Where an editor
-/// shows a part of a file alone: the file's whole text, and how many of its lines stand before.
+/// `open()` returns the name of the shown file, and a function that maps a line of the run's text to a line of the
+/// current text. If an editor shows only a part of a file: the file's whole text, and the number of lines before the
+/// part.
 export function helpWithCode(cm, open) {
   let marks = [], mistakes = [], linting = 0, failure = null;  // failure: {file, line, text} of the last run
   /// Under the line at which the run stopped.
@@ -138,7 +139,7 @@ export function helpWithCode(cm, open) {
   }
   function tellMistake() {
     const found = mistakes.find(({ line }) => line === cm.getCursor().line + 1)?.text ?? "";
-    const text = found === failure?.text ? "" : found;  // that stands under its line
+    const text = found === failure?.text ? "" : found;  // that is shown under its line
     if ($("mistake").textContent === text) return;
     $("mistake").textContent = text;
     if (cm.hasFocus()) cm.scrollIntoView(null, 24);  // the message takes a line of the editor

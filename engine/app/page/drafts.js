@@ -44,7 +44,7 @@ export function keepDraftSoon(source) {
 }
 window.addEventListener("pagehide", () => { for (const source of [...waiting.keys()]) keepDraft(source); });
 
-/// What stands in the editor becomes a draft that is offered; what comes after it is kept apart.
+/// The text in the editor becomes a draft that the page offers; later text is kept separately.
 export function setAside(source) {
   keepDraft(source);
   source.drafts.push({ key: source.key, text: source.doc.getValue(), digest: source.digest, at: Date.now() });

@@ -50,8 +50,8 @@ function lineIn(to, from, line) {
   return line <= first ? line : Math.max(1, line + b.length - a.length);
 }
 
-/// Which lines of `a` stand in `b` too, in the same order: a longest common subsequence, by dynamic programming. Where that
-/// would take too long, none but those at the beginning and the end.
+/// The lines of `a` that are also in `b`, in the same order: a longest common subsequence, by dynamic programming. If
+/// that would take too long, only the common lines at the beginning and the end.
 function keptLines(a, b) {
   const { first, last } = commonLines(a, b), rows = a.length - first - last, columns = b.length - first - last;
   const kept = a.map((_, i) => i < first || i >= a.length - last);

@@ -1,6 +1,6 @@
-// What `dynlab check` finds in the folder, and which answers are open, in a panel beside the document. What is said of
-// one thing is counted once: an answer that is not given stands among the open ones only, and what the lesson's checks
-// take points for stands with the points.
+// The issues that `dynlab check` found in the folder, and the open answers, in a panel next to the document. Each issue
+// is counted once: a missing answer appears only among the open answers, and an issue for which the lesson's checks
+// deduct points appears with the points.
 import { language, number, say } from "./page_words.js";
 
 const $ = (id) => document.getElementById(id);

@@ -1,4 +1,4 @@
-// What is handed in: the report and the zip of the folder, made when somebody asks for them.
+// The files to submit: the report and the zip of the folder, created on request.
 import * as editor from "./editor.js";
 import { say } from "./page_words.js";
 import { Lost, session } from "./session.js";

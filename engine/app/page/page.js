@@ -1,4 +1,4 @@
-// A live document: puts what the server tells of into the page, and keeps the page where the reader has it.
+// A live document: puts the server's news into the page, and keeps the reader's scroll position.
 import { controlsByCell } from "./sliders.js";
 import * as editor from "./editor.js";
 import { showFindings } from "./findings.js";
@@ -32,7 +32,7 @@ function anchor() {
   return null;
 }
 
-/// The anchor itself, or what stands in its place now.
+/// The anchor itself, or the element now at its place.
 function hold(held) {
   if (!held) return;
   const list = $("document").children;
@@ -88,7 +88,7 @@ function place(pieces, html) {
   return true;
 }
 
-/// What stands above and below the pieces: notes, literature, and what follows it.
+/// The content above and below the pieces: notes, literature, and what follows it.
 const filled = new Map();  // element -> its HTML
 function fill(element, html) {
   if (filled.get(element) === html) return;
@@ -235,7 +235,7 @@ function bottomOfView() {
   return editing.height > 0 && editing.top > 0 ? editing.top : window.innerHeight;
 }
 
-/// The page follows the cursor of the source: what stands there is brought into the window.
+/// The page follows the cursor of the source: it scrolls the matching piece into view.
 function showLine(file, line) {
   const piece = pieceAt(file, line);
   mark(piece);
@@ -263,7 +263,7 @@ function goToPage(number) {
   showPdf(pdfReady, number);
 }
 
-/// The printed document in place of the page; a new one when there is one.
+/// The printed document replaces the page; a new PDF is loaded when one is ready.
 let pdfShown = false, pdfReady = false;
 function showPdf(ready, page = 0) {
   const first = ready && !pdfReady;
@@ -288,7 +288,7 @@ $("view").onclick = () => {
   window.scrollTo(0, pdfShown ? 0 : scrolled);
 };
 
-/// One stream of news; the browser comes again by itself when it is cut, and gets everything then.
+/// One stream of news; the browser reconnects automatically when the stream is cut, and then receives everything.
 function connect() {
   version = -1;
   session.open({ page: show,
@@ -296,7 +296,7 @@ function connect() {
                  away: () => { $("state").textContent = say("noAnswer"); version = -1; } });
 }
 
-/// Browsers open six connections to one server, whatever the number of tabs: those that nobody sees let theirs go.
+/// Browsers open six connections to one server, whatever the number of tabs: hidden tabs close theirs.
 document.addEventListener("visibilitychange", () => {
   if (!document.hidden) return connect();
   session.close();

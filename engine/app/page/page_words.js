@@ -2,7 +2,7 @@
 import { addWords, tr, trIn, trPlural } from "./words.js";
 
 addWords({
-  // The bar and what it tells of the run
+  // The bar and its messages about the run
   bar: tr("Document"), runAll: tr("Run all"), runAllAbout: tr("Run every cell again"), pdf: tr("PDF"),
   asPrinted: tr("The document as printed"), toMistake: tr("Go to error"), ofBefore: tr("of the previous run"),
   ofBeforeRunning: tr("of the previous run; running again"), cellOf: tr("cell {} of {}"),
@@ -29,7 +29,7 @@ addWords({
   replaceAll: tr("Replace all:"), replaceWith: tr("Replace with:"), replaceBy: tr("With:"), replaceIt: tr("Replace?"),
   yes: tr("Yes"), no: tr("No"), all: tr("All"),
 
-  // What is handed in
+  // Submission
   handIn: tr("Submit"), makeReport: tr("Create report.pdf"), makePack: tr("Pack the folder"),
   handInAbout: tr("dynlab creates the report from the saved script, then packs the folder with the report into one file."),
   makingReport: tr("creating the report …"), makingPack: tr("packing the folder …"),

@@ -1,6 +1,7 @@
-// What the page of a document asks of the engine, and the news it gets. This file alone speaks to the server; in a page without one
-// a session of the same shape takes its place, whose engine runs in a worker of the browser (engine/web/page/worker_session.js). Every
-// method throws `Lost` where nobody answers, and Error with the engine's sentence where it refuses.
+// The requests of a document's page to the engine, and the engine's news. Only this file communicates with the server;
+// in a page without a server, a session with the same interface replaces it, whose engine runs in a worker of the
+// browser (engine/web/page/worker_session.js). Every method throws `Lost` if there is no reply, and Error with the
+// engine's sentence if the engine refuses.
 import { order } from "./orders.js";
 
 export class Lost extends Error {}
@@ -30,7 +31,7 @@ const kKeptAlive = 60_000;  // bytes that a browser still sends for a page that 
 let stream = null;
 
 export const session = {
-  /// News until `close`: page(what has changed, or all), over(), away() while nobody answers.
+  /// News until `close`: page(the changes, or everything), over(), away() while there is no reply.
   open({ page, over, away }) {
     session.close();
     stream = new EventSource("events");
@@ -57,7 +58,7 @@ export const session = {
   /// {written, now: the file as it is}; not written where it has changed since `digest`.
   save: (source) => saving("save", source),
 
-  // What an editor asks while somebody types; null where there is no answer
+  // The requests of an editor while the user types; null if there is no answer
   /// {typed, candidates: [{text, note}], signature, summary, argument} for the end of a text
   complete: async (text) => (await post("complete", { text, cursor: 0 })).json(),
   /// {text}: of the name at a place in a line

@@ -1,4 +1,4 @@
-// The variables of the script as far as it has run, beside it.
+// The variables of the executed part of the script, next to it.
 import { noteOf, setNote } from "./notes.js";
 import { session } from "./session.js";
 

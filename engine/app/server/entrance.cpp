@@ -21,7 +21,7 @@ const char* const kNoEntrance =
     "comes too late.</p>";
 constexpr std::int64_t kNextNews = 5'000;  // ms between two late visits that are reported
 
-/// The same clock in all processes of this machine, which nobody sets.
+/// A clock that is the same in all processes of this machine and that no one can set.
 std::int64_t now() {
     return std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now().time_since_epoch())
         .count();

@@ -15,8 +15,8 @@ struct EntranceKey {
     int port = 0;
     std::string secret = {};
 
-    /// The server's name with its port, "dynlab-1f3a...localhost:20123". Browsers take every name below localhost for
-    /// this machine (RFC 6761) and the pages of each for a site of its own.
+    /// The server's name with its port, "dynlab-1f3a...localhost:20123". Browsers resolve every name below localhost to
+    /// this machine (RFC 6761) and treat the pages of each name as a separate site.
     std::string host() const;
     /// An address for one visit within a minute.
     std::string address() const;
@@ -27,16 +27,16 @@ struct EntranceKey {
 /// Decides who may ask a server of pages on 127.0.0.1, which every user of the machine and every site in the user's
 /// browser can reach.
 ///
-/// * Each start of a server has a random name, which is a site of its own to browsers. What another server at this port
-///   left in the browser (cookies, storage, service workers) belongs to another site, and no other server is sent the
-///   cookie of this one.
-/// * The address that is printed holds a token for one visit. The visit gets a cookie (SameSite=Strict, HttpOnly) and
-///   is sent on to the page.
+/// * Each start of a server has a random name, which is a separate site for browsers. Data that another server at this
+///   port left in the browser (cookies, storage, service workers) belong to another site, and browsers send the cookie
+///   of this server to no other.
+/// * The printed address contains a token for one visit. The visitor gets a cookie (SameSite=Strict, HttpOnly) and is
+///   redirected to the page.
 /// * `Host` must be that name, so that no other name leads here (DNS rebinding).
 /// * No other site may ask: a foreign `Origin` and a `Sec-Fetch-Site` of another site are refused.
-/// * What changes something (POST) needs the own `Origin`, `Sec-Fetch-Site: same-origin` and `X-Dynlab: 1`, a field
-///   that no form can send.
-/// * Bodies come behind POST only, with their length.
+/// * A request that changes something (POST) needs the server's `Origin`, `Sec-Fetch-Site: same-origin` and `X-Dynlab:
+///   1`, a field that no form can send.
+/// * Only POST requests have bodies, and each states its length.
 class Entrance {
   public:
     explicit Entrance(int port);

@@ -22,7 +22,7 @@ struct RequestHead {
     std::optional<std::size_t> body;                 ///< bytes that follow it; nothing for chunks
     bool keeps_alive = true;
 
-    /// The value of a field that stands there once; nothing for none or several.
+    /// The value of a field that occurs once; nothing if the field is missing or repeated.
     std::optional<std::string_view> field(const std::string& name) const;
     bool has(const std::string& name) const { return fields.contains(name); }
 };

@@ -22,9 +22,9 @@ namespace {
 constexpr int kWaiting = 64;  // connections that the system keeps until they are taken
 constexpr int kTries = 20;    // of ports that the system gives
 
-/// Browsers ask at ::1, too, for a name that stands for this machine: a socket that has the port there and does not
-/// listen, so that no other user's server gets what was meant for this one. Empty where the port is taken; without
-/// IPv6 nobody can listen there.
+/// Browsers also try ::1 for a name of this machine. This socket occupies the port there and does not listen, so that
+/// no other user's server receives requests meant for this one. Empty if the port is taken; without IPv6 no one can
+/// listen there.
 std::optional<FileDescriptor> guard_of(int port) {
     FileDescriptor guard(::socket(AF_INET6, SOCK_STREAM | SOCK_CLOEXEC, 0));
     sockaddr_in6 address{};

@@ -13,8 +13,8 @@ namespace dynlab::inline app {
 
 /// The connections of a server on 127.0.0.1, each with a thread.
 ///
-/// Everybody on the machine can connect. Of the connections that have not shown yet that they are the user's only a few
-/// are kept: for a new one the oldest of them is closed, so that a program that opens many keeps nobody else out.
+/// Every user of the machine can connect. Only a few connections that are not yet known as the user's own are kept: a
+/// new connection closes the oldest of them, so that a program that opens many connections locks no one out.
 class PageConnections {
   public:
     /// Serves a connection to its end; `known` says that it is the user's.

@@ -58,7 +58,7 @@ class WebServer::Work {
     std::map<std::string, Handler> gets_, posts_;  ///< by their paths
     std::function<std::string()> first_;
     std::function<void()> on_late_visit_ = [] {};
-    std::mutex sending_;  ///< news that are sent while first_() is made would stand before what is older
+    std::mutex sending_;  ///< keeps news that are sent while first_() runs from overtaking it
 
   private:
     void serve(HttpConnection& connection, const std::function<void()>& known) {

@@ -29,7 +29,7 @@ struct PageReply {
 enum class Visit {
     kFirst,      ///< the page answers from now on
     kElsewhere,  ///< another program shows the document there already
-    kLate,       ///< somebody came with an address that was old or used
+    kLate,       ///< a visitor opened an expired or used address
 };
 
 /// Serves pages to this machine's browser: HTTP on 127.0.0.1, requests and one stream of events a tab. Who may ask:
@@ -57,7 +57,7 @@ class WebServer {
     void on_post(const std::string& path, Handler handler);
     /// The data of the event "page" with which a stream begins.
     void on_stream(std::function<std::string()> first);
-    /// Called by a thread of the server when somebody came with an address that is old or used: print a new one.
+    /// Called by a thread of the server when a visitor opened an expired or used address: print a new one.
     void on_late_visit(std::function<void()> notify);
     void start();
 

@@ -1,11 +1,11 @@
-// The parts of a record for estimation and validation, as bars over its picture that hands and arrows move.
+// The parts of a data set for estimation and validation, as bars over its plot that mouse and arrow keys move.
 import { element, hold } from "./bench_fields.js";
 import { say } from "./bench_words.js";
 
 const KINDS = ["estimation", "validation"];
 
-/// `parts()` gives {estimation: [from, to], validation: [from, to]} in seconds, or nothing; `move(kind, [from, to], held)`
-/// is told where hands put them.
+/// `parts()` returns {estimation: [from, to], validation: [from, to]} in seconds, or nothing; the brushes call
+/// `move(kind, [from, to], held)` with the place to which the user dragged a part.
 export class Brushes {
   constructor(plot, parts, move) {
     Object.assign(this, { plot, parts, move, bars: {}, strip: element("div", { className: "strip" }) });

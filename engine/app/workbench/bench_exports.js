@@ -1,4 +1,4 @@
-// What leaves the session: models, the prepared record, the script.
+// Exports of the session: models, the prepared data, the script.
 import { session } from "./bench_session.js";
 import { button, element } from "./bench_fields.js";
 import { modelSteps, roles } from "./bench_steps.js";

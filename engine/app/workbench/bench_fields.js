@@ -66,8 +66,8 @@ function openAt(text) {
   }
   return open.pop() ?? null;
 }
-/// A field for an expression of Lua. One that is not closed stays in the field, since it would take the lines behind it
-/// along; what else is no expression is told by the run, in its line.
+/// A field for an expression of Lua. An unclosed expression stays in the field, since it would swallow the following
+/// lines. The run reports other invalid expressions, with their line.
 function expression(box, now, act) {
   Object.assign(box, { value: now, defaultValue: now, spellcheck: false });
   box.onchange = () => {

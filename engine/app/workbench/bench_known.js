@@ -9,8 +9,8 @@ const optionOf = (step, name) => step.options.find(({ key }) => key === name)?.t
 
 let growth = null;  // behind a hand at a study: {all}, the runs that it comes to in the end
 
-/// A number of the study: few runs while it is dragged, then more and more until all are made, or somebody says another
-/// number of them.
+/// A number of the study: few runs during dragging, then more and more until all runs are done, or until the user
+/// enters another number of runs.
 function dragged(key, make) {
   return async (text, how = {}) => {
     const step = stepOf(key);
@@ -33,7 +33,7 @@ function dragged(key, make) {
   };
 }
 
-/// The expression that a name of the study stands for, in its own line.
+/// The expression that a name of the study refers to, in a separate line.
 function defined(study, name, words) {
   const value = optionOf(study, name), step = session.steps.find((one) => one.on && one.names[0] === value);
   if (!step) return labeled(words, textField(value, (text) => rewrite(keyOf(study), (now) => withOption(now, name, text))));
@@ -44,7 +44,7 @@ function defined(study, name, words) {
   })));
 }
 
-/// The first lambda of the estimators, where one stands there.
+/// The first lambda of the estimators, if they contain one.
 function lambdaControl(key, study) {
   const found = /(lambda = )([\d.eE+-]+)/.exec(optionOf(study, "estimators"));
   if (!found) return "";

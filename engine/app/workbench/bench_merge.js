@@ -29,11 +29,12 @@ function changes(before, after) {
 }
 
 const isInsertion = ({ first, end }) => first === end;
-/// Whether two changes want the same lines. What is put between the same lines stands one behind the other.
+/// Whether two changes affect the same lines. Two insertions at the same place do not clash: one follows the other.
 const clash = (a, b) => (isInsertion(a) && isInsertion(b) ? false : a.first < b.end && b.first < a.end);
 const isSame = (a, b) => a.first === b.first && a.end === b.end && a.lines.join("\n") === b.lines.join("\n");
 
-/// `base` as both `mine` and `theirs` have changed it; where both want the same lines mine stand, and `clashed` says so.
+/// `base` with the changes of both `mine` and `theirs`. If both change the same lines, mine are kept, and `clashed` is
+/// true.
 export function merged(base, mine, theirs) {
   if (theirs === base || mine === theirs) return { text: mine, clashed: false };
   const lines = base.split("\n"), ours = changes(lines, mine.split("\n"));

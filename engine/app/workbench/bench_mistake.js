@@ -1,4 +1,4 @@
-// A mistake at which the script stops, by the step that made it, with buttons that mend that or take it away.
+// The mistake at which the script stops, at the step that made it, with buttons that fix or delete the step.
 import { session } from "./bench_session.js";
 import { button, rewrite, withOption } from "./bench_fields.js";
 import { choose } from "./bench_choice.js";
@@ -9,7 +9,7 @@ import { say } from "./bench_words.js";
 
 export const stepAt = (line) => session.steps.find((step) => line >= step.first_line && line <= step.last_line);
 
-/// A search of a record that has become one of several outputs.
+/// An order search whose data set now has several outputs.
 function orphanedSearch(step) {
   const data = step.function === "srivcstruc" ? variables()[step.arguments[0]] : null;
   if (!(data?.outputs > 1)) return null;

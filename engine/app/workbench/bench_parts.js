@@ -1,18 +1,19 @@
-// The parts of the record that estimate and validate: samples of what was prepared, or a second record that validates.
+// The parts of the data for estimation and validation: samples of the prepared data, or a second data set for
+// validation.
 import { change, session } from "./bench_session.js";
 import { cellRemoval, isPreparing, linesWith, newCell, preparingSteps, replaced, roles, variables, written } from "./bench_steps.js";
 
 const dataOf = (name) => variables()[name];
 const kFewest = 10;  // samples of a part
 
-/// The step that gives a part of the record its name, where it has one of its own.
+/// The step that names a part of the data, if the part has a separate name.
 function partStep(kind) {
   const part = roles(), name = part[kind];
   if (!name || name === part.prepared || name === part.raw || (kind === "validation" && name === part.estimation)) return null;
   return session.steps.find((step) => step.on && step.names.length === 1 && step.names[0] === name) ?? null;
 }
 
-/// [from, to] of the parts, in seconds of the record that they are taken from. A second record has no part in it.
+/// [from, to] of the parts, in seconds of their data set. A second data set has no part here.
 export function partsNow() {
   const part = roles(), parts = {};
   for (const kind of part.second ? ["estimation"] : ["estimation", "validation"]) {
@@ -22,7 +23,7 @@ export function partsNow() {
   return parts;
 }
 
-/// A part becomes what a hand says: samples of the prepared record, the whole of it by its name.
+/// Sets a part to the dragged range: samples of the prepared data, or all of it by its name.
 let hand = null;
 export function movePart(kind, [from, to], held) {
   const { prepared } = roles(), data = dataOf(prepared);
@@ -47,7 +48,7 @@ function alikeBlock() {
   while (isPreparing(session.steps[last + 1], validation)) ++last;
   return { name: validation, second, first: session.steps[first].first_line, last: session.steps[last].last_line };
 }
-/// A second record is prepared as the first is, but for the samples that are taken of it.
+/// Prepares a second data set like the first, without the step that selects samples of the first.
 export function preparedAlike(steps = preparingSteps()) {
   const block = alikeBlock();
   if (!block) return [];
@@ -58,7 +59,7 @@ export function preparedAlike(steps = preparingSteps()) {
   return text === now ? [] : [{ first: block.first, last: block.last, text }];
 }
 
-/// Samples of a record behind steps of preparation.
+/// The sampling grid of a data set after preparation steps.
 function grid(steps, { N, Ts, start }) {
   for (const step of steps.filter((one) => one.on)) {
     const [a, b] = (step.receiver ? step.arguments : step.arguments.slice(1)).map(Number);
@@ -67,14 +68,14 @@ function grid(steps, { N, Ts, start }) {
   }
   return { N, Ts, start };
 }
-/// The prepared record as the script says it now, which its last run may not have seen yet.
+/// The sampling grid of the prepared data according to the script, which the last run may not have seen yet.
 const UNTOLD = ["keep", "discard", "shift"];  // how many samples these leave
 export function preparedNow() {
   const { raw, prepared } = roles(), data = dataOf(raw), steps = preparingSteps();
   return data?.kind === "data" && !steps.some((step) => UNTOLD.includes(step.function)) ? grid(steps, data) : dataOf(prepared);
 }
-/// Parts keep their place in time when the record gets another sampling or loses its ends; where that leaves too little
-/// of one, their share of it.
+/// Parts keep their place in time when the data are resampled or lose their ends. If too few samples of a part remain,
+/// each part keeps its share of the data instead.
 export function movedParts(before, after) {
   const { raw, prepared } = roles(), data = dataOf(raw);
   if (data?.kind !== "data") return [];
@@ -89,8 +90,8 @@ export function movedParts(before, after) {
   return steps.map((step, i) => replaced(step, { arguments: result[i].map(String) }));
 }
 
-/// Both parts from the first record: `share` of it estimates, the rest validates. A second record goes, unless it is
-/// used elsewhere.
+/// Both parts from the first data set: `share` of it for estimation, the rest for validation. A second data set is
+/// removed, unless it is used elsewhere.
 export function divide(share) {
   const { prepared } = roles(), { N } = preparedNow(), at = Math.round(share * N);
   const texts = { estimation: share < 1 ? `${prepared}:range(1, ${at})` : prepared, validation: share < 1 ? `${prepared}:range(${at + 1}, ${N})` : prepared };

@@ -1,12 +1,12 @@
-// The steps that prepare the record, and the parts of it that estimate and validate.
+// The steps that prepare the data, and the parts for estimation and validation.
 import { change, session } from "./bench_session.js";
 import { button, choice, element, isNumber, numberField, textField, why } from "./bench_fields.js";
 import { insertedBehind, keyOf, preparingSteps, removed, replaced, roles, variables, written } from "./bench_steps.js";
 import { divide, movedParts, preparedAlike, preparedNow } from "./bench_parts.js";
 import { say, shortNumber } from "./bench_words.js";
 
-/// `make(steps)` gives {edits, after}: edits of the steps that prepare, and what these are then. Parts and a second
-/// record follow.
+/// `make(steps)` returns {edits, after}: edits of the preparation steps, and the steps after these edits. Parts and a
+/// second data set follow.
 function prepare(make, how) {
   return change(() => {
     const before = preparingSteps(), made = make(before);
@@ -14,8 +14,8 @@ function prepare(make, how) {
   }, how);
 }
 
-/// A step behind the last that prepares; the record gets another name for it where it has none yet. `call(z)` gives
-/// function, arguments and receiver for the record z.
+/// Appends a step to the preparation steps; the data get a new name for it if they have none yet. `call(z)` returns
+/// function, arguments and receiver for the data z.
 export function addPreparing(call) {
   prepare((steps) => {
     const { raw, prepared } = roles(), fresh = prepared === raw, from = fresh ? raw : prepared, name = fresh ? "prepared" : prepared;

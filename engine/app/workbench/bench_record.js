@@ -1,4 +1,4 @@
-// The record: where it comes from, which column is what, what advice says of it, and the steps that prepare it.
+// The data set: its source, the roles of its columns, advice about it, and the steps that prepare it.
 import { change, inTurn, post, request, session, settled, trouble, upload } from "./bench_session.js";
 import { button, choice, element, labeled, rewrite, typeset, why, withOption } from "./bench_fields.js";
 import { formOf, freeName, keyOf, newCell, roles, variables } from "./bench_steps.js";
@@ -18,7 +18,7 @@ async function offer(answer) {
   document.dispatchEvent(new Event("benchdraw"));
 }
 const ownName = ({ name }) => name.slice(groupOf({ name }).length).replace(/^\./, "");
-/// The channels of the record in use have the same roles in another one, where it has them all.
+/// Gives the channels of another data set the same roles as in the current one, if it has all of these channels.
 function takeRolesInUse() {
   const data = variables()[roles().raw];
   if (data?.kind !== "data") return;
@@ -31,7 +31,7 @@ function takeRolesInUse() {
     column.unit ||= units[ownName(column)] ?? "";
   }
 }
-/// The columns of the record in use, to take others of them.
+/// Offers the columns of the current data set again, for another choice.
 async function offerAgain() {
   const { raw } = roles(), file = session.steps.find((step) => step.function === "load" && step.names[0] === `${raw}_file`);
   if (!file) return;
@@ -121,7 +121,7 @@ function columnsTable() {
   return node;
 }
 
-/// The record becomes a variable of this name; whether it did.
+/// Makes the offered data a variable of this name; returns whether that succeeded.
 async function take(name) {
   const of = (role) => offered.columns.filter((column) => column.role === role), named = (role) => of(role).map((column) => column.name);
   const outputs = named("output"), inputs = named("input");
@@ -158,7 +158,7 @@ async function takeSecond() {
 }
 const withUnits = (names, units) => names.map((name, i) => (units?.[i] ? `${name} (${units[i]})` : name)).join(", ");
 const channelsOf = (data) => `${withUnits(data.input_names, data.input_units)} → ${withUnits(data.output_names, data.output_units)}`;
-/// A second record stands in for the part that validates.
+/// A second data set replaces the part for validation.
 async function takeForValidation() {
   const name = freeName("second");
   if (!await take(name)) return;

@@ -115,7 +115,7 @@ const SECTIONS = [[tr("Data"), ["record", "second", "spectrum", "correlation"]],
 
 function freeId(view, taken) {
   let k = 1;
-  const name = view === "record" ? "measured" : view;  // the record's own cell has that name
+  const name = view === "record" ? "measured" : view;  // the cell of the data has that name
   const id = () => `${name}${k > 1 ? `-${k}` : ""}`;
   while (taken.has(id())) ++k;
   taken.add(id());
@@ -140,7 +140,7 @@ function linesOf(view, models, taken) {
 }
 const SENTENCES = { fig: tr("@fig:{} shows {}."), tbl: tr("@tbl:{} shows {}.") };
 
-/// The script with what this wrote into its report in that language; what somebody has changed stays.
+/// The script with this module's own report texts in that language; texts that the user has changed stay.
 export function reportIn(source, language) {
   const writers = languages.filter((code) => code !== language).map((code) => textIn.bind(null, code)), write = textIn.bind(null, language);
   const turned = new Map();
@@ -174,7 +174,7 @@ const takenIds = () => new Set(session.cells.map(({ id }) => id));
 
 export const viewLines = (view, models) => linesOf(view, models, takenIds());
 
-/// The whole session's report, its views in their order under headings; nothing where the script says by itself what it shows.
+/// The whole session's report, its views in order under headings; empty if the script itself already shows results.
 export function wholeReport(shown, models) {
   if (/^-- %% \[markdown\]/m.test(session.source) || /\b(report\.|idplot|plot|figure|compare|resid|step|bode|nyquist|pzmap|present|print)\s*[({."]/.test(session.source)) return "";
   const { raw, second, orders, reading, study } = roles(), taken = takenIds();

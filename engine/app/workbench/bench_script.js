@@ -77,7 +77,7 @@ export async function openScript() {
   showScript();
 }
 
-/// The text as it is now, with what changed marked, unless somebody is typing; what could not be sent is sent again.
+/// Shows the current text and marks the changes, unless the user is typing; sends text again that could not be sent.
 export function showScript() {
   const field = document.getElementById("field");
   if (typing) { if (unsent) typed(); return; }

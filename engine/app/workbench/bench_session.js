@@ -1,5 +1,5 @@
-// The session as the server tells it, and orders to it: no other part of the workbench speaks to the server. An order that changes the script is made from the state that the one
-// before it left.
+// The session as the server reports it, and the orders to it: no other part of the workbench communicates with the
+// server. Each order that changes the script starts from the state that the previous order left.
 import { order } from "./orders.js";
 import { say } from "./bench_words.js";
 
@@ -11,7 +11,7 @@ const listeners = [];
 export const onChange = (listen) => listeners.push(listen);
 const tell = (changed) => { for (const listen of listeners) listen(changed); };
 
-/// What the server answers; of one that has ended or is not reached the page's state tells already.
+/// The server's reply. For a server that has ended or cannot be reached, the page's state already reports the failure.
 export async function request(path, ask = fetch) {
   try {
     return await ask(path);
@@ -48,7 +48,7 @@ const kLongestNews = 1000;  // ms until the news of an order are there
 const kAttempts = 6;  // of an order that meets what was changed elsewhere
 
 let turn = Promise.resolve(), waiting = 0, last = null, sendTyped = () => {};
-/// What somebody types goes before what is clicked behind it.
+/// Text that the user types is sent before later clicks.
 export const beforeOrders = (send) => { sendTyped = send; };
 /// What changes the script, one after the other: `run()` when all that was asked for before is done.
 export function inTurn(run) {
@@ -99,7 +99,7 @@ async function obey(order) {
 }
 
 let told = null;
-/// Tells something at the top until the script changes, with controls behind it; null takes it away.
+/// Shows a message at the top until the script changes, followed by controls; null removes it.
 export function trouble(words, ...controls) {
   told = words;
   const node = document.getElementById("trouble");
@@ -133,7 +133,7 @@ export async function look(variables, settings, until) {
 const NEEDS = { variables: [], record: ["raw"], second: ["second"], spectrum: ["raw", "prepared"], advice: ["raw", "prepared"], models: ["estimation", "validation", "all_models"],
                 compare: ["estimation", "validation", "models"], residuals: ["estimation", "validation", "models"], correlation: ["estimation", "models"],
                 orders: ["orders"], study: ["study"], reading: ["raw", "reading"] };
-let latest = {};  // views as the server told them last
+let latest = {};  // the server's last views
 
 /// Whether a script that stops at a mistake has come to all that a view is made of.
 function isWhole(view) {
@@ -192,8 +192,8 @@ function open() {
   stream.addEventListener("over", () => { stream.close(); session.over = true; onState("over"); });
   stream.onerror = () => onState("away");
 }
-/// Browsers open six connections to one server, whatever the number of tabs: those that nobody sees let theirs go, when
-/// all is done that was asked for there.
+/// Browsers open six connections to one server, whatever the number of tabs: hidden tabs close theirs, when all their
+/// orders are done.
 function openOrClose() {
   if (session.over || (stream !== null) === (!document.hidden || waiting > 0)) return;
   if (!stream) return open();

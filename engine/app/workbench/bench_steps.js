@@ -56,7 +56,7 @@ export const formOf = (name) => session.forms.find((form) => form.name === name)
 const uses = (step) => (step.receiver ? [step.receiver] : []).concat(step.arguments);
 const last = (list) => list[list.length - 1];
 
-/// The variable whose samples a name has: the record that iddata made.
+/// The variable from which a name takes its samples: the result of iddata.
 function sourceOf(name) {
   for (let k = 0; name && k < 20; ++k) {
     const step = session.steps.find((one) => one.on && one.names.includes(name)), from = step?.receiver || step?.arguments[0];
@@ -97,7 +97,7 @@ export function modelSteps() {
                                         (formOf(step.function) || seen[step.names[0]]?.kind === "model"));
 }
 
-/// Whether a step gives a record another form under its own name.
+/// Whether a step transforms a data set under its own name.
 export const isPreparing = (step, name) => step?.names[0] === name && (PREPARING.includes(step.function) || (step.function === "range" && step.receiver === name));
 export function preparingSteps() {
   const { prepared, raw } = roles();
@@ -111,7 +111,7 @@ export function endOfScript() {
   return end;
 }
 
-/// The numbers of lines in which a name stands, but for remarks and texts.
+/// The numbers of lines that contain a name outside comments and strings.
 export function linesWith(name) {
   const word = new RegExp(`(?<![\\w.:])${name}(?!\\w)`), numbers = [];
   session.source.split("\n").forEach((line, i) => {
@@ -121,7 +121,7 @@ export function linesWith(name) {
   return numbers;
 }
 
-/// Edits that take steps away: with their cell where nothing else stands in it, and with the heading before that.
+/// Edits that remove steps: with their cell if nothing else is in it, and with the heading before the cell.
 export function cellRemoval(steps) {
   const lines = session.source.split("\n"), gone = new Set(), edits = [];
   for (const { first_line, last_line } of steps) for (let line = first_line; line <= last_line; ++line) gone.add(line);
@@ -156,7 +156,7 @@ export function freeName(stem) {
 }
 /// A text as Lua has it.
 export const luaText = (text) => JSON.stringify(text);
-/// A cell of its own at the end, of this id where no cell has it yet.
+/// A separate cell at the end, with this id if no other cell has it yet.
 export function newCell(id, text) {
   const own = session.cells.some((cell) => cell.id === id) ? freeName(id) : id;
   return insertedBehind(endOfScript(), `\n-- %% id=${own}\n${text}`);

@@ -1,4 +1,4 @@
-// The pictures of a session, as many at once as wanted, and what is told with them.
+// The plots of a session, as many at once as wanted, and their messages.
 import { change, isOlder, look, request, session, settled, trouble } from "./bench_session.js";
 import { Brushes } from "./bench_brushes.js";
 import { addModel, chosenStep, redraw } from "./bench_choice.js";
@@ -16,8 +16,8 @@ const PER_CHANNEL = ["compare", "residuals", "step", "impulse", "nyquist", "pole
 const OVER_TIME = [["record", "compare"], ["step", "impulse", "correlation"]];  // pictures whose cursors go together
 const tiles = new Map();  // name -> {node, body, words, plot}
 const hidden = new Set();  // models that are not drawn
-let chosen = null;         // names of views; until somebody chooses, what there is decides
-let range = null;          // of the record, where it was zoomed
+let chosen = null;         // names of views; until the user chooses, the available results decide
+let range = null;          // of the data, if it was zoomed
 let timer = 0;
 
 function defaultViews() {
@@ -38,7 +38,7 @@ export function setHidden(model, hide) {
   ask();
   redraw();
 }
-const kMostDrawn = 8;  // more curves than that nobody tells apart
+const kMostDrawn = 8;  // the user cannot distinguish more curves
 export const drawnModels = () => modelSteps().filter((step) => step.on && !hidden.has(step.names[0])).map((step) => step.names[0]).slice(-kMostDrawn);
 
 /// What a view is of; without it the view has nothing to show, and says so.
@@ -88,7 +88,7 @@ export function save(order) {
   wanted = { ...order, number: ++saves };
   ask();
 }
-/// What a run has saved goes to whoever asked.
+/// Downloads the file that a run has saved for this page's request.
 export async function takeSaved() {
   const { saved } = session.views;
   if (!wanted || saved?.number !== wanted.number) return;
@@ -117,7 +117,7 @@ export async function firstOrders() {
   return number === questions ? orders : [];
 }
 
-/// Tells the server what is to be seen, at which size.
+/// Requests the shown views from the server, with their sizes.
 export function ask() {
   clearTimeout(timer);
   timer = setTimeout(() => {
@@ -178,8 +178,8 @@ function sizeTiles() {
     body.style.height = several ? `${5 + 8 * rows}rem` : "";
   }
 }
-const kNarrow = 490;  // px: panels of Bode stand one below the other, as views.lua does it
-const ASKED = ["reading", "orders", "study", "second"];  // views of steps that somebody made to see them
+const kNarrow = 490;  // px: panels of Bode are below each other, as in views.lua
+const ASKED = ["reading", "orders", "study", "second"];  // views of steps that the user created in order to see them
 export function arrange() {
   const main = document.getElementById("views"), names = shownViews(), before = tiles.size;
   for (const [name, tile] of tiles) if (!names.includes(name)) { tile.node.remove(); tiles.delete(name); }
@@ -203,7 +203,7 @@ export async function fillReport() {
   if (lines) await change(() => [insertedBehind(endOfScript(), lines)]);
 }
 
-/// Zooms the record to samples of what was prepared, with as much before and behind.
+/// Zooms the plot of the data to samples of the prepared data, with a margin of the same length on both sides.
 export function showSamples([first, last]) {
   const plot = tiles.get("record")?.plot, data = variables()[roles().prepared];
   if (!plot || data?.kind !== "data") return;
@@ -211,7 +211,7 @@ export function showSamples([first, last]) {
   plot.zoom(plot.panels[0], [x.position(from - wide), x.position(from + (last - first) * data.Ts + wide)], null);
 }
 
-/// Zooming a long record asks for the samples that are seen then.
+/// Zooming long data requests the visible samples.
 function followZoom(tile) {
   tile.plot.box.addEventListener("zoomed", () => {
     const { x } = tile.plot.panels[0];
@@ -299,7 +299,7 @@ function drawTile(name) {
 export function drawTiles(names = shownViews()) {
   for (const name of names) if (tiles.has(name)) drawTile(name);
 }
-/// What the picture of the record has to say again where its parts have moved.
+/// Redraws the marks in the plot of the data after its parts have moved.
 export const redrawBrushes = () => tiles.get("record")?.plot?.box.dispatchEvent(new Event("drawn"));
 
 new ResizeObserver(() => ask()).observe(document.getElementById("views"));

@@ -51,8 +51,8 @@ std::string initial_order(const std::string& name, TimeDomain domain) {
     return found == kOrders.end() ? "1" : found->second;
 }
 
-/// Equations are written, not chosen: one that works with any record of one input and one output is there to be
-/// changed.
+/// The user writes equations instead of choosing them: the initial text works with any data set of one input and one
+/// output, and the user changes it.
 constexpr const char* kFirstEquations =
     "idgrey(function(t, x, u, p) return {-p.k1*x[1] + p.k2*u} end, {k1 = 1, k2 = 1}, {states = 1})";
 

@@ -18,7 +18,7 @@ struct FormField {
 };
 DYNLAB_DESCRIBE(FormField, name, kind, parts, initial, words)
 
-/// The controls of one function that makes a model of a record.
+/// The controls of one function that estimates a model from data.
 struct EstimatorForm {
     std::string name, summary, structure, noise;
     std::string domain;                ///< "continuous" or "discrete"
@@ -27,8 +27,8 @@ struct EstimatorForm {
 };
 DYNLAB_DESCRIBE(EstimatorForm, name, summary, structure, noise, domain, arguments, options)
 
-/// All methods of the catalog that make a model of a record, in its order, with their texts for the reader. They
-/// follow from the catalog of methods and from the table of functions: a new method is among them by itself.
+/// All methods of the catalog that estimate a model from data, in the catalog's order, with their texts for the reader.
+/// They follow from the catalog of methods and from the table of functions, so that a new method appears automatically.
 std::vector<EstimatorForm> estimator_forms(const Reader& reader = {});
 
 }  // namespace dynlab::inline app

@@ -120,7 +120,7 @@ class Columns {
             for (const auto& [member, value] : **table) collect(name + "." + member, name, value);
     }
 
-    /// Whether a file has an input and an output of this suffix besides those without one: u, y, u_val, y_val.
+    /// Whether a file has an input and an output with this suffix and an input without it: u, y, u_val, y_val.
     bool is_of_other_experiment(const std::string& name) const {
         const std::size_t at = name.rfind('_');
         if (at == std::string::npos) return false;
@@ -157,7 +157,8 @@ class Columns {
         return !spacing.disorder && spacing.even;
     }
 
-    /// Where names tell nothing a clock may come first; of the rest the input is the first, the output the last.
+    /// Assigns roles if the names show none: a clock may come first; of the other columns the first is the input, the
+    /// last the output.
     void guess_rest(std::vector<RecordColumn>& columns) const {
         const auto none = [&](const char* role) {
             return std::ranges::none_of(columns, [&](const RecordColumn& column) { return column.role == role; });

@@ -25,7 +25,7 @@ struct RecordChoice {
 };
 DYNLAB_DESCRIBE(RecordChoice, data, columns, look)
 
-/// `data`: a file or a data set; without `look` unless it `tells`. Throws EnvironmentError as load_data().
+/// `data`: a file or a data set; without `look` unless `tells` is true. Throws EnvironmentError as load_data() does.
 RecordChoice summarize_record(const std::string& data, bool tells = true);
 
 /// What was chosen of it.
@@ -35,7 +35,7 @@ struct RecordOrder {
     std::vector<std::string> outputs;
     std::string time;                          ///< none when empty
     double Ts = 0;                             ///< s; 0: as the file says
-    std::string name;                          ///< of the variable that gets the record
+    std::string name;                          ///< of the variable for the data
     std::map<std::string, std::string> units;  ///< of signals, instead of the file's
 };
 DYNLAB_DESCRIBE(RecordOrder, data, inputs, outputs, time, Ts, name, units)
@@ -47,15 +47,15 @@ std::string record_lines(const RecordOrder& order);
 /// The order that the roles of a choice's columns suggest. Throws EnvironmentError where there are no two signals.
 RecordOrder suggested_order(const RecordChoice& choice);
 
-/// The script with the record of the order, `lines` of record_lines(): in place of the lines of its cell "record" where
-/// that gives the record its name, else in a cell of its own behind that one; a script without any code becomes that of
-/// a new session.
+/// Returns the script with the data set of the order; `lines` is the result of record_lines(). The lines replace those
+/// of its cell "record" if that cell assigns the data set's name, else they form a separate cell after it. A script
+/// without any code becomes that of a new session.
 std::string with_record(const std::string& script, const RecordOrder& order, const std::string& lines);
 
 /// Throws EnvironmentError for control characters in the name of a file, by which it might end a line of the script.
 void expect_plain_name(const std::string& name);
 
-/// The script of a new session; `lines` of record_lines() for the record "data", or empty.
+/// The script of a new session; `lines` of record_lines() for the name "data", or empty.
 std::string new_session(const std::string& title, const std::string& lines, const std::string& language);
 
 }  // namespace dynlab::inline app

@@ -176,14 +176,14 @@ std::string_view without_blanks_before(std::string_view text) {
     return text.substr(std::min(text.find_first_not_of(" \t\r\f\v"), text.size()));
 }
 
-/// How many signs = stand between the brackets with which a remark of several lines begins; nothing for others.
+/// The number of = signs between the opening brackets of a multi-line comment; nothing for other comments.
 std::optional<std::size_t> level_of_remark(std::string_view remark) {
     if (!remark.starts_with("--[")) return {};
     const std::size_t second = std::min(remark.find_first_not_of('=', 3), remark.size());
     return second < remark.size() && remark[second] == '[' ? std::optional(second - 3) : std::nullopt;
 }
 
-/// Whether nothing but a remark that ends with its line stands behind a statement.
+/// Whether a statement is followed at most by a comment that ends with its line.
 bool is_remark(const std::string& rest) {
     std::string_view left = without_blanks_before(rest);
     if (left.starts_with(';')) left = without_blanks_before(left.substr(1));

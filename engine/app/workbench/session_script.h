@@ -19,12 +19,12 @@ DYNLAB_DESCRIBE(StepOption, key, text)
 struct SessionStep {
     int first_line = 1, last_line = 1;
     std::vector<std::string> names;      ///< that get the values; none of a bare call
-    bool local = false;                  ///< "local" stands before them
+    bool local = false;                  ///< the names follow "local"
     std::string receiver, function;      ///< of the call
     bool braces = false;                 ///< f{...}: the table is the only argument
     std::vector<std::string> arguments;  ///< as they are written, without the table of options at the end
     std::vector<StepOption> options;
-    std::string rest;  ///< what stands behind it in its last line: a remark
+    std::string rest;  ///< the text after it in its last line: a comment
     bool on = true;
     bool broken = false;  ///< no statement of Lua: its only argument is what was typed behind the names, in one line
 };

@@ -40,7 +40,8 @@ class SessionText {
     /// that is too long for a script.
     bool obey(const ScriptOrder& order);
     void put(const std::string& text);  ///< as a step of the history
-    /// One step; what another program wrote meanwhile is a step of its own. Throw as take_from_file().
+    /// Undoes or redoes one step; each text that another program wrote meanwhile is a separate step. Both throw as
+    /// take_from_file() does.
     void undo();
     void redo();
     bool save();  ///< what is not on disk yet; whether there was something, and it is there now

@@ -20,14 +20,14 @@ bool is_one_of(const nlohmann::json& name, const Names& names) {
 struct ViewOrder {
     std::vector<std::string> variables;  ///< variables of the script whose values the page shows
     std::string settings;                ///< JSON: which views, of which variables, and how
-    int data_until = 0;                  ///< the last line of the script on which the records that are looked at depend
+    int data_until = 0;                  ///< the last line of the script on which the shown data sets depend
 };
 DYNLAB_DESCRIBE(ViewOrder, variables, settings, data_until)
 
 /// The Lua that runs before a session's script: the functions that look at its variables.
 std::string workbench_prelude();
-/// Cells that stand behind a session's script: they hand its variables and the settings to the prelude, what is quick
-/// first. Throws ValueError for names that are none and for settings that are no JSON.
+/// Cells after a session's script: they pass its variables and the settings to the prelude, the quick views first.
+/// Throws ValueError for invalid names and for settings that are not JSON.
 std::string view_cells(const ViewOrder& order);
 
 }  // namespace dynlab::inline app

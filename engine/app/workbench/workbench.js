@@ -1,4 +1,4 @@
-// The workbench: a record, its preparation, models and views, and beside them the script that all of it is.
+// The workbench: a data set, its preparation, models and views, and next to them the script that contains all of it.
 import { change, connect, inTurn, onChange, post, request, session, settled, trouble } from "./bench_session.js";
 import { openFirst, recordPanel } from "./bench_record.js";
 import { partsPanel, preparationPanel } from "./bench_preparation.js";
@@ -16,7 +16,7 @@ import { browserLanguage, label, language, languages, say, useLanguage } from ".
 const $ = (id) => document.getElementById(id);
 let connection = "here", opened = false, making = false, viewsBefore = "";
 
-/// The script's header says the language, in which its run tells everything; the browser's is that of a new session.
+/// The script's header states the language of all messages of its run; a new session has the browser's language.
 let languageBefore = null;
 const languageOfScript = () => /^-- language:\s*(\w+)/m.exec(session.source)?.[1];
 function speak() {
@@ -180,7 +180,7 @@ $("show-script").onclick = () => {
   const hidden = document.body.classList.toggle("without-script");
   $("show-script").setAttribute("aria-pressed", String(!hidden));
 };
-/// Saved under the session's name: a window that opens by itself later than the click would be blocked.
+/// Saved under the session's name: the browser would block a window that opens automatically, later than the click.
 $("make-pdf").onclick = async () => {
   making = true;
   showState();

@@ -32,13 +32,13 @@ namespace fs = std::filesystem;
 constexpr const char* kJson = "application/json";
 constexpr std::size_t kLargestUpload = std::size_t{256} << 20;
 
-/// What a session is of: its script, and the record where it is a new one.
+/// The subject of a session: its script, and for a new session the data set.
 struct Subject {
     fs::path script;
     std::string data, title;
 };
 
-/// The first record that a lesson loads.
+/// The first data set that a lesson loads.
 std::string record_of_lesson(const Lesson& lesson) {
     static const RE2 kLoad(R"(\bload\("([^"]+)\"\))", RE2::Latin1);
     std::string record;
@@ -67,14 +67,14 @@ Subject subject_of(const std::string& words) {
     return {session_of(lesson.slug), record, "Identification from " + fs::path(record).stem().string()};
 }
 
-/// A record that the page has to ask about, and why; whether the session is a new one.
+/// A data set that the page has to ask about, and why; whether the session is new.
 struct Opening {
     std::string data, words;
     bool fresh = false;
 };
 DYNLAB_DESCRIBE(Opening, data, words, fresh)
 
-/// record_lines(), with what somebody at the page can do about a file without a sampling time.
+/// record_lines(), with advice for the user of the page about a file without a sampling time.
 std::string lines_of_order(const RecordOrder& order) {
     try {
         return record_lines(order);
@@ -119,7 +119,7 @@ void take_script_orders(WebServer& server, WorkbenchSession& bench) {
     server.on_post("/stop", [&](const PageRequest&) { return bench.stop(), done(); });
 }
 
-/// Whether there was no such file: an empty one keeps the name from now on, whoever else asks for it.
+/// Whether the file did not exist before: the empty file now reserves the name against all other programs.
 bool is_created(const fs::path& file) {
     constexpr mode_t kForAll = 0666;
     const FileDescriptor made(::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kForAll));
@@ -139,8 +139,8 @@ fs::path free_name(const std::string& requested) {
     return file;
 }
 
-/// What a page may look at before it stands in the script, where it can be read anyhow: data sets, files in the folder,
-/// and what the session is of.
+/// Data sets that a page may inspect before the script contains them, because the user can read them anyway: data sets,
+/// files in the folder, and the session's subject.
 const std::string& checked_record(const std::string& data, const std::string& subject) {
     const std::vector<std::string> sets = dataset_names();
     const fs::path within = fs::weakly_canonical(data).lexically_relative(fs::current_path());
@@ -225,7 +225,7 @@ void serve_workbench(const WorkbenchOptions& options) {
     const bool fresh = !fs::exists(subject.script);
     Opening opening{.data = "", .words = "", .fresh = fresh};
     if (fresh) write_file_atomically(subject.script, first_script(subject, opening));
-    return_freed_memory();  // of the record's file
+    return_freed_memory();  // of the data file
     WorkbenchSession bench(subject.script, runner);
     Permissions permissions(subject.script);
     if (fresh) permissions.grant_script(bench.script());

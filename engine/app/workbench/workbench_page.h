@@ -8,7 +8,7 @@
 namespace dynlab::inline app {
 
 struct WorkbenchOptions {
-    std::string subject;       ///< a data file, a data set, a lesson, or a script; empty: a session without a record
+    std::string subject;       ///< a data file, a data set, a lesson, or a script; empty: a session without data
     int port = 0;              ///< any free one
     bool run_at_once = false;  ///< the scripts of this folder are allowed from now on
     /// Gets the session's script, too.
@@ -16,9 +16,9 @@ struct WorkbenchOptions {
         [](const std::string&, Visit, const std::filesystem::path&) {};
 };
 
-/// Serves a session until Ctrl-C (which throws Interrupted). A script is opened as it is; of a record a new script is
-/// begun, in the current folder, under the record's name. To be called before the program has threads. Throws
-/// EnvironmentError for what cannot be opened.
+/// Serves a session until Ctrl-C (which throws Interrupted). A script is opened unchanged; for a data set, a new script
+/// is created in the current folder, under the data set's name. Call this function before the program has threads.
+/// Throws EnvironmentError for a subject that cannot be opened.
 void serve_workbench(const WorkbenchOptions& options);
 
 }  // namespace dynlab::inline app

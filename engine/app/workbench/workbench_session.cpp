@@ -88,7 +88,7 @@ void WorkbenchSession::redo() {
     text_is_ours();
 }
 
-/// What stands on disk is what somebody at the page wanted; or why it is not there has changed.
+/// Notes that the text comes from the user of the page, or that the reason why it is not on disk has changed.
 void WorkbenchSession::text_is_ours() {
     changed_ = true;
     if (may_run_) notify_saving_(text_.text());
@@ -223,8 +223,8 @@ void WorkbenchSession::take_orders() {
     notify_();
 }
 
-/// Those alone whose text or settings are other than when they were made; nothing where all stand: advice takes longer
-/// than all the rest, and a hand that pans a record wants its picture only.
+/// Returns only the views whose text or settings differ from those when they were made; nothing if all are current.
+/// Advice takes longer than all other views, and panning a data set needs only its plot.
 std::optional<ViewOrder> WorkbenchSession::stale_views() {
     ViewOrder order = looked_at_;
     ::nlohmann::json settings = ::nlohmann::json::parse(order.settings), common = settings;
@@ -284,7 +284,7 @@ void WorkbenchSession::run() {
     }
 }
 
-/// What was told of cells that the script no longer has.
+/// Removes messages about cells that the script no longer has.
 void WorkbenchSession::clear_other_cells() {
     std::set<std::string> there = {kViewCell, kSlowViewCell};
     for (const Cell& cell : parse_percent_script(text_.text(), text_.file()).cells) there.insert(cell.id);
@@ -309,7 +309,7 @@ std::string WorkbenchSession::translated(const Message& message) const {
     return message_text(message, reader_of_session(language()));
 }
 
-/// From now on only what stands before this part is run and looked at, until the script changes.
+/// From now on only the lines before this part are run and shown, until the script changes.
 void WorkbenchSession::leave_out(std::size_t part) {
     const auto before = static_cast<std::size_t>(runner_.parts()[part].first_line - 1);
     if (before > lines_of(text_.text()).size()) return;  // a view
@@ -402,7 +402,7 @@ std::string WorkbenchSession::json(bool all) const {
             const PercentScript script = parse_percent_script(text_.text(), text_.file());
             for (const Cell& cell : script.cells)
                 cells.push_back({{"id", cell.id}, {"line", cell.first_line}, {"code", cell.kind == Cell::Kind::kCode}});
-        } catch (const DocumentError&) {  // told as the run's mistake
+        } catch (const DocumentError&) {  // reported as the run's mistake
         }
     }
     page["printed"] = printed_;

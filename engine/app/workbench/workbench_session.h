@@ -28,18 +28,18 @@ class WorkbenchSession {
     void work();
 
     std::optional<std::size_t> change(const ScriptOrder& order);  ///< as SessionText::obey(); the revision then
-    void put(const std::function<std::string(const std::string&)>& make);  ///< of the script that stands there
+    void put(const std::function<std::string(const std::string&)>& make);  ///< from the current script
     void undo();
     void redo();
     std::size_t look(const ViewOrder& order);  ///< the number of the order
-    void stop();                               ///< the part that runs; what stands before it is still looked at
+    void stop();                               ///< the running part; the text before it is still shown
     void again();                              ///< runs what was stopped
     void allow_runs();                         ///< nothing is run before
     void end();
     /// What a run saved (workbench.show "saved"), by its name. Throws EnvironmentError where there is none.
     std::string saved(const std::string& name) const;
 
-    std::optional<Message> mistake() const;                ///< at which the script stops, as the last run told it
+    std::optional<Message> mistake() const;                ///< at which the script stops, as the last run reported
     std::string translated(const Message& message) const;  ///< in the script's language
     std::string script() const;
     std::filesystem::path file() const;

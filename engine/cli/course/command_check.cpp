@@ -36,7 +36,7 @@ struct CheckArguments {
     bool as_json = false, document_only = false;
 };
 
-/// The people of the roster, and whoever's account this is.
+/// The people of the roster, and the owner of this account.
 std::shared_ptr<const IdentityMatcher> matcher_for(const CheckArguments& args) {
     auto names = std::make_shared<IdentityMatcher>();
     if (!args.roster.empty()) {
@@ -50,7 +50,7 @@ std::shared_ptr<const IdentityMatcher> matcher_for(const CheckArguments& args) {
     return names;
 }
 
-/// A script that stands alone is held to what its folder would be.
+/// Checks a single script as its folder would be checked.
 CheckResult check_script(const fs::path& script, const CheckOptions& check_options) {
     const TemporaryFolder folder;
     make_script_folder(script, folder.path());

@@ -21,7 +21,8 @@ std::string stage_in_words(const std::string& stage) {
     return stage == "first" ? "first version" : stage == "review" ? "reviews" : "final version";
 }
 
-/// Names of authors are looked for when copies for others are made, so that the findings do not tell them.
+/// Reports whether anonymized copies for others are missing. The anonymity check runs when such copies are made, so the
+/// findings do not contain its results.
 void tell_of_copies(Course& course, const Assignment& assignment, const Group& group, const FindingsArguments& args) {
     if (!assignment.is_report() || args.stage == "final" || args.version) return;
     const bool reviews = args.stage == "review";

@@ -105,7 +105,7 @@ void tell_costs_and_gaps(Course& course, const Assignment& a, const Marks& all) 
         }
 }
 
-/// Students with points of their own, and what was said at the oral.
+/// Prints students with individual points, and the comments of the oral.
 void tell_students_and_comments(Course& course, const Assignment& a, const Marks& all) {
     std::map<std::string, std::string> names;
     for (const Student& student : students_of(course)) names[student.id] = student.name;

@@ -30,7 +30,7 @@ struct PackArguments {
     std::optional<std::uint32_t> group_seed;
 };
 
-/// Whether the PDF is a draft, in which ?? stands where something is missing.
+/// Whether the PDF is a draft, which contains ?? for missing results.
 bool is_draft(const fs::path& pdf) {
     // Beside signs and units, not behind a word as a doubled question mark is.
     static const RE2 kGap(R"((^|[^A-Za-z?])\?\?([^?]|$))", RE2::Latin1);
@@ -116,7 +116,7 @@ int bundle_groups(const Lesson& lesson, const PackArguments& words) {
         throw EnvironmentError("{}: {}", words.roster, error.message());
     }
     fs::create_directories(folder);
-    if (!complete) write_file_atomically(copy, roster_text(students));  // first: nobody gets other records later
+    if (!complete) write_file_atomically(copy, roster_text(students));  // first: keeps each group's data sets
     const TemporaryFolder sheets;
     std::map<std::string, fs::path> sheet_in;
     for (const BundleOwner& owner : owners) {

@@ -10,8 +10,9 @@ namespace dynlab::inline cli {
 CLI::Option* add_secret_option(CLI::App& command, std::string& secret);
 CLI::Option* add_timeout_option(CLI::App& command, int& seconds);
 
-/// How a lesson's checks are tried on what belongs to the course: as many boxes at once as there are cores, long calls
-/// recalled. `secret` names the file, empty where none was given. Throws EnvironmentError where it cannot be read.
+/// The setup for testing a lesson's checks on the course's own files: one sandbox per core in parallel, with cached
+/// results of long calls. `secret` names the file, empty if none was given. Throws EnvironmentError if it cannot be
+/// read.
 GradingSetup trial_setup(const Lesson& lesson, const std::string& secret, int timeout_seconds);
 
 }  // namespace dynlab::inline cli

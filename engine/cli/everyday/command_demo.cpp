@@ -44,7 +44,7 @@ std::optional<std::string> ask(const std::string& question) {
     return given ? std::optional(answer) : std::nullopt;
 }
 
-/// Runs a demonstration whole, then tells it: page by page on a terminal, in one go elsewhere.
+/// Runs a complete demonstration, then shows it: page by page on a terminal, in one go elsewhere.
 int show(const Demonstration& demonstration) {
     RunRequest request;
     request.script = read_percent_script(demonstration.script);

@@ -24,7 +24,7 @@ struct HintArguments {
     bool next = false, all = false;
 };
 
-/// The lesson that is named, or that the copy in this folder is of, whose report also tells the language.
+/// The named lesson, or the lesson of the copy in this folder, whose report also determines the language.
 Lesson lesson_to_help(HintArguments& args) {
     const std::filesystem::path folder = args.lesson;
     if (!std::filesystem::is_regular_file(folder / "analysis.lua")) return find_lesson(args.lesson);

@@ -26,7 +26,7 @@ std::optional<Number> number_or_auto(const std::string& text, const char* option
     throw CLI::ValidationError(option, "expected " + requested + " or the word auto, not '" + text + "'");
 }
 
-/// identification_script(), with what somebody at the terminal can do about a file without a sampling time.
+/// identification_script(), with advice for the user of the terminal about a file without a sampling time.
 std::string script_of(const IdentifyRequest& request) {
     try {
         return identification_script(request);

@@ -33,7 +33,7 @@ std::string text_of(const std::string& file) {
     return {std::istreambuf_iterator<char>(std::cin), {}};
 }
 
-/// Files with checks have a language of their own.
+/// Files with checks have additional functions.
 std::vector<std::string> names_in(const std::string& file, const CheckNames& check_names) {
     return fs::path(file).filename() == "checks.lua" ? check_names() : std::vector<std::string>();
 }

@@ -42,8 +42,8 @@ void remove_old_figures(const fs::path& folder) {
     for (const fs::path& file : old) fs::remove(file, none);
 }
 
-/// Draws what the script made: a figure without a file of its own goes to `folder`, which is made for it. Waits for
-/// the files that the script saved by itself, too.
+/// Draws the figures of the script: a figure without a file name goes to `folder`, which is created for it. Also waits
+/// for the files that the script itself saved.
 void save_figures(RunRecord& record, GnuplotRenderer& renderer, const fs::path& folder, const std::string& language) {
     if (!record.figures.empty()) fs::create_directories(folder);
     draw_figures(record, renderer, folder, FigureFormat::kPdf, language);
@@ -111,7 +111,7 @@ int run_and_show(const RunArguments& args, CallsInParts* parts) {
     request.parts = parts;
     request.written = &written;
     RunRecord record = run_showing_activity(request, renderer);
-    if (args.out.empty()) remove_old_figures(out);  // a folder that was named is somebody's
+    if (args.out.empty()) remove_old_figures(out);  // a named folder may contain the user's files
     save_figures(record, renderer, out, request.script.header.language);
     if (args.gnuplot) save_gnuplot_files(record, request.script.header.language);
     if (!args.out.empty()) write_file_atomically(out / "record.json", to_json(record));

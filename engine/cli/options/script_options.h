@@ -8,8 +8,9 @@
 
 namespace dynlab::inline cli {
 
-/// For what a command gets as its script or folder: from here on dynlab prints in its language. Throws the parser's
-/// error, before anything is written, for a file whose ending tells that it is no script (workflow/given_script.h).
+/// For the script or folder argument of a command: from here on dynlab prints in the script's language. Throws the
+/// parser's error, before anything is written, for a file whose ending shows that it is no script
+/// (workflow/given_script.h).
 void expect_script(const std::string& given, const std::string& command);
 
 /// The option `--lang CODE`, which is the language of the program's messages, too.
@@ -20,7 +21,7 @@ struct SeedOption {
     std::string text;
 
     void add_to(CLI::App& command);
-    /// The number asked for; with "random" one from the system, told on standard error. Nothing when not given.
+    /// The requested number; with "random" one from the system, printed on standard error. Nothing if not given.
     std::optional<std::uint32_t> value() const;
 };
 

@@ -72,7 +72,7 @@ std::set<std::string> check_latex() {
     return missing;
 }
 
-/// How far grading can keep what students hand in apart.
+/// Reports how well grading can isolate submissions.
 void check_isolation() {
     const auto obstacle = obstacle_to(Isolation::kFull);
     show("isolation", obstacle ? "process only; " + message_text(*obstacle) : "full (bubblewrap, seccomp), for grading",
@@ -86,7 +86,7 @@ void check_copies() {
          true);
 }
 
-/// Looks for the data sets; returns the packages whose records are missing.
+/// Searches for the data sets; returns the packages whose data are missing.
 std::set<std::string> check_data() {
     std::set<std::string> missing;
     const std::vector<std::string> names = dataset_names();

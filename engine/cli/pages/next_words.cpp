@@ -59,7 +59,7 @@ const CLI::Option* next_positional(const Place& place) {
     return nullptr;
 }
 
-/// "best|newest" -> best, newest; "{en,fr}" likewise.
+/// "best|newest" -> best, newest; "{en,fr}" -> en, fr.
 std::vector<std::string> alternatives(const std::string& text, char separator) {
     std::vector<std::string> words(1);
     for (const char letter : text) {

@@ -49,7 +49,8 @@ std::optional<fs::path> pdf_below(const fs::path& folder) {
     return found.size() == 1 ? std::optional(found.front()) : std::nullopt;
 }
 
-/// Printing may lose which letters the signs of a script stand for; then they are read in the PDF that was printed.
+/// Printing can lose the mapping from glyphs to letters of a script; dynlab then reads the letters from the printed
+/// PDF.
 PdfLayout layout_or_nothing(const fs::path& file) {
     try {
         return read_pdf_layout(file);

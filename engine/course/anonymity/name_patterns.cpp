@@ -59,7 +59,7 @@ std::vector<Part> parts_of(const std::string& text) {
     return parts;
 }
 
-/// The surname is what stands before a comma, is written in capitals, or stands last.
+/// The surname is the part before a comma, the part in capitals, or the last part.
 FullName full_name(const std::string& name) {
     FullName result;
     const auto comma = name.find(',');
@@ -107,7 +107,7 @@ bool may_stand_alone(const Part& part) {
     return part.letters.size() >= kMinNameLength && !is_ordinary_word(part.letters);
 }
 
-/// The parts of a double name, "Mueller-Luedenscheid", that can stand for it.
+/// The parts of a double name, "Mueller-Luedenscheid", that can replace the full name.
 std::vector<Part> halves_of(const Part& surname) {
     std::vector<Part> halves;
     std::size_t begin = 0;
@@ -127,7 +127,7 @@ Part initial_of(const Part& part) {
     return initial;
 }
 
-/// Names that are too short or too usual to stand alone, with an initial: of the document's own authors.
+/// Names that are too short or too common to match alone are matched with an initial: those of the document's authors.
 void add_initialled(const std::string& who, const FullName& name, std::vector<NamePattern>& patterns) {
     const auto add = [&](const Part& first, const Part& second, bool reversed) {
         NamePattern pattern = whole_name(who, {first, second}, reversed);

@@ -30,7 +30,7 @@ class LessonQuestions {
     std::vector<TextPart> starter_;
 };
 
-/// The text of analysis.lua and report.md in a folder, as far as they are there.
+/// The text of analysis.lua and report.md in a folder. A missing file gives no part.
 std::vector<TextPart> text_parts_in(const std::filesystem::path& folder);
 
 }  // namespace dynlab::inline course

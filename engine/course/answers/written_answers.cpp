@@ -256,7 +256,7 @@ std::string written_answer(const std::vector<TextPart>& parts, const QuestionNam
     std::vector<std::string> kept;
     for (std::vector<std::string>& lines : paragraphs_of(AnswerReader(question, given).read(parts))) {
         if (given.has_paragraph(joined(lines, "\n"))) continue;
-        // An answer may stand right below the question, without a blank line.
+        // An answer may follow the question directly, without a blank line.
         while (!lines.empty() && given.has_line(lines.front())) lines.erase(lines.begin());
         for (std::string& line : lines) line = without_request(line);
         const std::string paragraph = trimmed(joined(lines, "\n"));

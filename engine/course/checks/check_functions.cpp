@@ -77,8 +77,8 @@ struct Compared {
     Vector given, expected;
 };
 
-/// Whether this check looks at records that students must not learn anything about: how far away an answer is would
-/// tell the truth to whoever hands in twice.
+/// Whether this check uses data sets that students must learn nothing about: the distance of an answer from the true
+/// value would reveal that value to a student who submits twice.
 bool on_secret_record(const Call& call) {
     const CheckSession& session = session_of(call);
     if (!session.current) return false;
@@ -187,7 +187,7 @@ int any_of(Call& call) {
     return give_result(call, best.share, best.message);
 }
 
-/// Whether two answers differ by more than rounding: what is computed from another record does.
+/// Whether two answers differ by more than rounding, as answers computed from different data sets do.
 int differs(Call& call) {
     call.at_most(2);
     constexpr double kEqualityTolerance = 1e-9;
@@ -248,7 +248,7 @@ constexpr std::array kFunctions = {
 // ---------------------------------------------------------------------------------------------------------------------
 // Trying a check
 
-/// Whether NaN or an infinite number stands in an answer (see data_io/values/json_values.h).
+/// Whether an answer contains NaN or an infinite number (see data_io/values/json_values.h).
 bool holds_no_numbers(const nlohmann::json& answer) {
     if (answer.is_string()) return answer == "NaN" || answer == "Infinity" || answer == "-Infinity";
     return answer.is_structured() && std::any_of(answer.begin(), answer.end(), holds_no_numbers);
@@ -278,8 +278,8 @@ void multiply_on_top(lua_State* L, double factor) {
     }
 }
 
-/// Why an answer cannot be had, in words for the student. Of other runs than that on the student's own records nothing
-/// is told that the script chose itself.
+/// Why an answer is not available, in words for the student. For runs other than the run on the student's own data
+/// sets, the message contains nothing that the script chose itself.
 Message answer_error(const std::string& name, const std::string& run,
                      const std::map<std::string, RecordedAnswer>& answers) {
     const auto given = answers.find(name);
@@ -355,8 +355,8 @@ std::optional<Message> mistake_made(const Call& call, const DeclaredCheck& check
     return said;
 }
 
-/// On a record that students must not learn anything about, what an error says may quote it, and so may a number in
-/// what the test says: these words are the instructor's.
+/// For a data set that students must learn nothing about, an error message or a number in a test's message may quote
+/// the data. The message then goes to the instructor only.
 void keep_secret(const CheckSession& session, bool ended, CheckOutcome& verdict) {
     const bool has_number = message_text(verdict.message).find_first_of("0123456789") != std::string::npos;
     if (ended ? !has_number : verdict.message == session.answer_error) return;

@@ -12,10 +12,11 @@ FunctionEntries check_declarations();      ///< check, change_check, drop_check,
 FunctionEntries check_functions();         ///< near, points_between, all_of, any_of, differs, has_figure, ...
 FunctionEntries check_source_functions();  ///< source, calls
 
-/// One more, for the engine: _verdict(k) tries the k-th declared check and leaves its verdict in the session.
+/// An additional function for the engine: _verdict(k) runs the k-th declared check and stores its result in the
+/// session.
 FunctionEntries verdict_function();
 
-/// The names of all that files with checks may call besides what scripts may.
+/// The names of all functions that check files may call in addition to those of scripts.
 std::vector<std::string> names_of_check_functions();
 
 }  // namespace dynlab::inline course

@@ -20,7 +20,7 @@ void call_library(const Call& call, const char* name, int arguments) {
     lua_call(L, arguments, 1);
 }
 
-/// Pushes what a function of a declared rig returns.
+/// Pushes the result of a function of a declared simulated plant.
 void call_of_plant(const Call& call, int function, std::uint32_t specimen, std::uint32_t seed) {
     lua_State* L = call.state();
     lua_rawgeti(L, LUA_REGISTRYINDEX, function);
@@ -28,7 +28,7 @@ void call_of_plant(const Call& call, int function, std::uint32_t specimen, std::
     lua_call(L, 1, 1);
 }
 
-/// _record(name, specimen, seed): a table of vectors, into the session.
+/// _record(name, variant, seed): stores a table of vectors in the session.
 int record(Call& call) {
     CheckSession& session = call.owner<CheckSession>();
     const std::string name = call.text(1, "name");
@@ -84,7 +84,7 @@ std::string run_of_answers(const Call& call, int index) {
     return run;
 }
 
-/// The specimen whose truth is wanted, and of which data set.
+/// The plant variant and the data set whose true model is requested.
 std::pair<std::string, std::uint32_t> specimen_meant(const Call& call, CheckSession& session) {
     if (call.type(1) == LUA_TSTRING) {
         call.at_most(1);
@@ -106,8 +106,8 @@ std::pair<std::string, std::uint32_t> specimen_meant(const Call& call, CheckSess
     return {name, 0};
 }
 
-/// truth(name): of the hidden record; truth(b): of the record of the rerun; truth(a, name): of the record that the
-/// script read.
+/// truth(name): the true model of the hidden data set; truth(b): of the rerun's data set; truth(a, name): of the data
+/// set that the script read.
 int truth(Call& call) {
     CheckSession& session = call.owner<CheckSession>();
     const auto [name, specimen] = specimen_meant(call, session);

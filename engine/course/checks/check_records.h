@@ -3,11 +3,11 @@
 
 namespace dynlab::inline course {
 
-/// What checks.lua may call to see other records than those that load() gives, and what theory says of a record:
-/// hidden, truth. Their state is the CheckSession that they are added with.
+/// Functions that checks.lua may call to get data sets other than those of load(), and the theoretical values of a data
+/// set: hidden, truth. Their state is the CheckSession that they are registered with.
 FunctionEntries check_record_functions();
 
-/// For the engine: _record(name, specimen, seed) leaves what a declared rig makes in the session.
+/// For the engine: _record(name, variant, seed) stores the data set of a declared simulated plant in the session.
 FunctionEntries record_function();
 
 }  // namespace dynlab::inline course

@@ -35,14 +35,14 @@ struct CheckedSubmission {
 struct EvaluatedCheck {
     CheckDescription check;
     std::optional<double> share;      ///< of the points; nothing for a check that could not be tried
-    Message message, for_instructor;  ///< see Verdict
+    Message message, for_instructor;  ///< see CheckOutcome
     double seconds = 0;               ///< of processor time that it took
 };
 
-/// A submission to be checked, with the records of its group.
+/// A submission to be checked, with the data sets of its group.
 struct SubmissionToGrade {
     CheckedSubmission work;
-    std::filesystem::path home;                      ///< DYNLAB_HOME while it is judged
+    std::filesystem::path home;                      ///< DYNLAB_HOME during the checks
     std::map<std::string, PlantVariants> specimens;  ///< see CheckSession
 };
 
@@ -54,14 +54,14 @@ struct GradedSubmission {
 };
 
 struct CheckResults {
-    std::vector<EvaluatedCheck> checks;                               ///< as they are declared
-    std::vector<GradedSubmission> judged;                             ///< of ChecksJob::submissions, one by one
-    std::vector<std::string> rigs;                                    ///< data sets of the rigs that the files declare
-    std::vector<std::map<std::string, std::vector<double>>> records;  ///< of ChecksJob::records, one by one
+    std::vector<EvaluatedCheck> checks;    ///< as they are declared
+    std::vector<GradedSubmission> judged;  ///< one entry per submission of ChecksJob::submissions, in order
+    std::vector<std::string> rigs;         ///< data sets of the simulated plants that the files declare
+    std::vector<std::map<std::string, std::vector<double>>> records;  ///< one entry per request of the job, in order
     std::optional<Message> error;  ///< a sentence, when a file cannot be read; then there is nothing else
 };
 
-/// A record to be made by a rig that the files declare.
+/// A request for a data set of a simulated plant that the files declare.
 struct RequestedRecord {
     std::string rig;
     std::uint32_t specimen = 0, seed = 1;

@@ -21,7 +21,7 @@ struct CheckDescription {
     bool document = false;  ///< it asks for findings of the document
     bool by_hand = false;   ///< the instructor marks it
     std::string rubric;     ///< what is marked by hand, for the instructor
-    bool visible = true;    ///< students may read the file it stands in
+    bool visible = true;    ///< students may read the file that declares the check
 };
 
 /// A check as its file declares it.
@@ -34,20 +34,21 @@ struct DeclaredCheck : CheckDescription {
 struct CheckOutcome {
     double share = 0;             ///< of the points, 0 to 1
     Message message;              ///< one or two sentences for the student; may be empty
-    Message for_instructor = {};  ///< what it said before where that may quote a secret record
+    Message for_instructor = {};  ///< the previous message, if it may quote a hidden data set
 };
 
-/// An apparatus that a file of checks declares; functions of {specimen =, seed =}, as indices in Lua's registry.
+/// A simulated plant that a check file declares; its functions take {specimen =, seed =} and are indices in Lua's
+/// registry.
 struct DeclaredPlant {
-    int record = 0, truth = 0;  ///< truth: 0 where the file does not tell
+    int record = 0, truth = 0;  ///< truth: 0 if the file declares none
 };
 
-inline constexpr char kMainRun[] = "main";       ///< the run that is handed in
-inline constexpr char kOtherSeedRun[] = "seed";  ///< the rerun with other random numbers, which changes no record
+inline constexpr char kMainRun[] = "main";       ///< the submitted run
+inline constexpr char kOtherSeedRun[] = "seed";  ///< the rerun with other random numbers, which changes no data set
 
 /// Specimens of the apparatus by data set.
 using PlantVariants = std::map<std::string, std::uint32_t>;
-inline constexpr char kHiddenRecords[] = "hidden";  ///< stands for a run where specimens are named
+inline constexpr char kHiddenRecords[] = "hidden";  ///< used as a run's name where plant variants are listed
 inline constexpr char kRunOfAnswers[] = "run";      ///< field of a metatable: from which run the answers came
 
 /// What the functions of checks.lua share while a submission is checked.
@@ -57,14 +58,13 @@ struct CheckSession {
     std::map<std::string, GradedRun> runs;           ///< kMainRun, and one for each rerun
     std::string source;                              ///< the student's script
     Issues findings;                                 ///< of the document
-    std::map<std::string, PlantVariants> specimens;  ///< whose records each run read, "hidden" those of hidden(); the
-                                                     ///< data sets that are not named are those of all, specimen 0
+    std::map<std::string, PlantVariants> specimens;  ///< by run, "hidden" for hidden(); missing: 0
     std::filesystem::path hidden_folder;             ///< holds NAME.mat or NAME.csv
     bool visible_file = true;                        ///< of the file that is being read
     const DeclaredCheck* current = nullptr;
-    bool took_hidden = false;  ///< the current check asked for a hidden record or what theory says of one
-    Message answer_error;      ///< why an answer that the current check asked for cannot be had; quotes no record
-    std::map<std::string, Message> said;  ///< what the messages of judgements stand for: Lua has their English text
+    bool took_hidden = false;             ///< the current check used a hidden data set or its theoretical values
+    Message answer_error;                 ///< why an answer that the current check requested is missing; quotes no data
+    std::map<std::string, Message> said;  ///< message of each check result by its English text, which Lua holds
     std::optional<CheckOutcome> verdict;
     std::optional<std::pair<std::string, double>> change;  ///< an answer that is seen multiplied
     std::map<std::string, std::vector<double>> record;     ///< what `_record` made last

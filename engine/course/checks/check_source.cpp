@@ -21,8 +21,8 @@ bool declares(const LuaTokens& tokens, std::size_t k) {
     return k > 0 && (tokens[k - 1].is("function") || tokens[k - 1].is("local"));
 }
 
-/// Whether the name at k stands for its value: it is called, or handed on under another name; it is neither a field nor
-/// the key in {name = value}.
+/// Whether the name at k is used for its value: the script calls it, or passes it on under another name. A field and
+/// the key in {name = value} do not count.
 bool uses(const LuaTokens& tokens, std::size_t k) {
     const bool field = k > 0 && (tokens[k - 1].is(".") || tokens[k - 1].is(":"));
     return !field && !declares(tokens, k) && !token_is(tokens, k + 1, "=");

@@ -23,7 +23,7 @@ Message shortened_message(const Message& message) {
     });
 }
 
-/// Tries every check, or the only one wanted, each with a time limit of its own.
+/// Runs every check, or only the requested one. Each check has a separate time limit.
 std::vector<EvaluatedCheck> verdicts(Runtime& runtime, CheckSession& session, std::optional<std::size_t> only) {
     std::vector<EvaluatedCheck> all;
     for (std::size_t k = 0; k < session.checks.size(); ++k) {

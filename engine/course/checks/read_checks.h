@@ -10,8 +10,8 @@
 
 namespace dynlab::inline course {
 
-/// The checks that the files of a job declare, in a Lua state of this process, for one submission. On a machine of
-/// others that wants a process of its own (check_run.h); in a browser the page has one.
+/// The checks that the files of a job declare, in a Lua state of this process, for one submission. On a shared machine
+/// the caller must use a separate process (check_run.h); in a browser each page already has one.
 class ReadChecks {
   public:
     ReadChecks(const ChecksJob& job, const SubmissionToGrade* submission);
@@ -22,7 +22,7 @@ class ReadChecks {
     /// Check results of the submission, or the result of the check with this number.
     std::vector<EvaluatedCheck> evaluated(std::optional<std::size_t> only = {});
 
-    /// Lists the declared checks and simulated plants, and creates the requested records of these plants.
+    /// Lists the declared checks and simulated plants, and creates the requested data sets of these plants.
     CheckResults listed(const std::vector<RequestedRecord>& records);
 
   private:
@@ -34,10 +34,10 @@ class ReadChecks {
     std::optional<Message> error_;
 };
 
-/// What a hidden record, a rerun's record or other random numbers are drawn from: the course's secret, the lesson and
-/// what is drawn.
+/// The number from which a hidden data set, a rerun's data set or other random numbers are generated. It depends on the
+/// course's secret, the lesson and the purpose.
 std::uint32_t drawn_number(const std::string& secret, const std::string& lesson, const std::string& what);
-/// What is drawn for the noise of a data set's record in this run.
+/// The purpose string for the noise of a data set in this run (see drawn_number).
 std::string noise_of(const std::string& data_set, const std::string& run);
 
 }  // namespace dynlab::inline course

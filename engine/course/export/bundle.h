@@ -11,7 +11,7 @@
 namespace dynlab::inline course {
 
 struct BundleOptions {
-    std::optional<std::uint32_t> group_seed = {};  ///< with records of the group's own (variant_data.h)
+    std::optional<std::uint32_t> group_seed = {};  ///< for group-specific data sets (variant_data.h)
     std::string language = {};                     ///< "en" or "fr"; the lesson's when empty
     std::filesystem::path sheet = {};              ///< the task sheet; may be empty
 };

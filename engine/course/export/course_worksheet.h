@@ -13,12 +13,13 @@ namespace dynlab::inline course {
 struct FilledWorksheet {
     std::string text;
     std::size_t marks = 0;            ///< that were written
-    std::vector<Message> complaints;  ///< sentences: rows of nobody, and students with a mark but without a row
+    std::vector<Message> complaints;  ///< sentences: unmatched rows, and students with a mark but without a row
 };
 
-/// Writes the percent of an assignment, or without one the total of the course, times the most points of the column of
-/// grades (100 where the table does not tell), into Moodle's grading worksheet or Canvas's gradebook. Everything else
-/// in it stays. `column`: of Canvas's gradebook, where it has several. Throws EnvironmentError as PlatformSheet.
+/// Writes the percentage of an assignment, or of the whole course if none is given, into Moodle's grading worksheet or
+/// Canvas's gradebook. The percentage is multiplied by the maximum points of the grade column (100 if the table states
+/// none). All other content of the file stays unchanged. `column`: the column of Canvas's gradebook, if it has several.
+/// Throws EnvironmentError as PlatformSheet does.
 FilledWorksheet fill_worksheet(Course& course, const std::optional<Assignment>& assignment,
                                const std::filesystem::path& worksheet, const std::string& column, Instant now);
 

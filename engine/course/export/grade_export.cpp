@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One row of the gradebook, with what the platforms want to know besides.
+/// One row of the gradebook, with the additional fields that the platforms need.
 struct MarkedStudent : Recipient {
     std::string submission, points, possible, canvas;
     std::string number_in_name;  ///< the participant's number in the name of the submission's folder
@@ -72,7 +72,7 @@ std::vector<MarkedStudent> marked_students(const GradeExportRequest& request) {
     if (request.roster)
         for (const Roster roster(*request.roster); const Student& student : roster.students())
             known[student.id] = student;
-    std::map<std::string, int> senders;  // of each submission; one that several have tells nobody's number
+    std::map<std::string, int> senders;  // by submission; one of several students gives no number
     for (const auto& row : table.rows) ++senders[row[column("submission")]];
     std::vector<MarkedStudent> all;
     for (const auto& row : table.rows) {
@@ -106,8 +106,8 @@ std::int64_t settle_numbers(std::vector<MarkedStudent>& students) {
     return contradicted;
 }
 
-/// Whose row of a platform's table this is: by id, by the platform's number, by mail or by name, whichever of these
-/// first fits exactly one; -1 for nobody.
+/// The student of a row in a platform's table. The function compares id, platform number, mail and name, in this order,
+/// and takes the first that matches exactly one student; -1 if none does.
 std::ptrdiff_t student_of(const PlatformSheet::Person& person, PlatformSheet::Platform platform,
                           const std::vector<MarkedStudent>& students) {
     const auto only = [&](const auto& fits) {
@@ -209,7 +209,7 @@ class Outbox {
   private:
     static bool has_marks(const MarkedStudent& student) { return !student.points.empty(); }
 
-    /// Rows of the platform's own table; participants' numbers are those that stand there.
+    /// Rows of the platform's own table; participant numbers come from that table.
     void read_sheet() {
         sheet_.emplace(*request_.worksheet, request_.assignment);
         const bool moodle = sheet_->platform() == PlatformSheet::Platform::kMoodle;
@@ -288,7 +288,7 @@ class Outbox {
         }
     }
 
-    /// False where nobody has a number.
+    /// False if no student has a number.
     bool moodle_table() {
         TextTable table;
         table.names = {"Identifier",       "Full name", "Grade", "Maximum Grade", "Last modified (grade)",

@@ -26,26 +26,27 @@ struct GradeExport {
 
 /// Writes into `marks`/handed_back, from gradebook.csv and the feedback in `marks`:
 ///
-/// * moodle-grades.csv: the worksheet with marks and comments filled in (export/platform_sheet.h), or without one a
-///   table of what Moodle's import wants (Identifier, Grade, Last modified (grade)), the names, the maximum and
-///   comments; comments are in the language of the feedback. moodle-feedback.zip, see MoodleFeedback, has the feedback
-///   that was not delivered yet, also of submissions that cannot be read and have no marks.
-/// * canvas-grades.csv: the gradebook with the marks filled in, or without one Student, ID, SIS User ID (the roster's
-///   id), SIS Login ID (its mail), Section, the assignment.
-/// * mail.csv, see mailing_list, with points, possible and sha256 (of the feedback) besides; new is what was not
-///   delivered yet.
+/// * moodle-grades.csv: the worksheet with marks and comments filled in (export/platform_sheet.h). Without a worksheet,
+///   a table of the columns that Moodle imports (Identifier, Grade, Last modified (grade)), the names, the maximum and
+///   comments; comments are in the language of the feedback. moodle-feedback.zip, see MoodleFeedback, contains the
+///   feedback that is not delivered yet, also of submissions that cannot be read and have no marks.
+/// * canvas-grades.csv: the gradebook with the marks filled in. Without one, Student, ID, SIS User ID (the roster's
+///   id), SIS Login ID (the roster's mail), Section, and the assignment.
+/// * mail.csv, see mailing_list, with the additional columns points, possible and sha256 (of the feedback); new means
+///   not delivered yet.
 ///
-/// Moodle numbers participants for each assignment. Their numbers are those of the worksheet, else those in the names
-/// of the submissions' folders, else the roster's; where a folder contradicts the roster, the roster's are of another
-/// assignment, and none of them is used.
+/// Moodle numbers participants for each assignment. The numbers come from the worksheet, else from the names of the
+/// submissions' folders, else from the roster. If a folder contradicts the roster, the roster's numbers belong to
+/// another assignment, and none of them is used.
 ///
-/// Where dynlab grade --answers left model answers in `marks`, everybody with feedback gets them as well.
-/// Who has no marks has no grade, and a platform that nobody has a number of no file; where that leaves none, everybody
-/// with marks could not be entered. Throws EnvironmentError where there is no gradebook.csv, or one of another kind.
+/// If dynlab grade --answers left model answers in `marks`, every student with feedback gets them as well. A student
+/// without marks gets no grade, and a platform without any participant number gets no file. If no file remains, the
+/// result lists all students with marks as not entered. Throws EnvironmentError if there is no gradebook.csv, or if it
+/// has another format.
 GradeExport write_grade_export(const GradeExportRequest& request);
 
-/// Records that the feedback listed in `marks`/handed_back/mail.csv was delivered: it is not new any more. Returns how
-/// many files were new. Throws EnvironmentError where nothing was written yet.
+/// Marks the feedback listed in `marks`/handed_back/mail.csv as delivered, so that it is no longer new. Returns the
+/// number of files that were new. Throws EnvironmentError if no export exists yet.
 std::int64_t record_delivery(const std::filesystem::path& marks);
 
 }  // namespace dynlab::inline course

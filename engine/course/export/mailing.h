@@ -8,7 +8,7 @@
 
 namespace dynlab::inline course {
 
-/// Somebody who gets files back, and what the learning platform knows them by.
+/// A person who receives files, with the identifiers that the learning platform uses.
 struct Recipient {
     std::string id, name, group, mail, moodle;  ///< what is not known is empty
     const std::string& shown() const { return name.empty() ? id : name; }
@@ -17,12 +17,12 @@ struct Recipient {
 /// What one person gets.
 struct Mailing {
     Recipient to;
-    std::vector<std::string> files;  ///< below the folder that the list stands in
+    std::vector<std::string> files;  ///< relative to the folder of the list
     bool is_new = true;              ///< some of it was not sent before
 };
 
-/// The list for whoever sends by mail, a row a person: id, name, group, mail, files (with "; " between them), new (yes
-/// or no).
+/// The list for a mailing program, one row per person: id, name, group, mail, files (separated by "; "), new (yes or
+/// no).
 TextTable mailing_list(const std::vector<Mailing>& mailings);
 
 /// Moodle's zip of feedback files (the assignment's "Upload multiple feedback files in a zip"): a folder

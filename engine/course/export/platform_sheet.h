@@ -10,18 +10,18 @@
 
 namespace dynlab::inline course {
 
-/// A table as a learning platform exports and imports it: Moodle's grading worksheet or Canvas's gradebook. Grades and
-/// comments are filled in; every other byte stays as it was: language and order of the columns, separator, quotes, line
-/// ends, byte order mark.
+/// A table as a learning platform exports and imports it: Moodle's grading worksheet or Canvas's gradebook. dynlab
+/// fills in grades and comments. Every other byte stays unchanged: language and order of the columns, separator,
+/// quotes, line ends, byte order mark.
 ///
 /// Columns are recognized by known words in several languages, otherwise by their content:
 ///
-/// * Moodle: a column of participants ("Participant 900001"), and the grade in front of the maximum grade.
-/// * Canvas: a second column "ID", and assignments with a number behind their name ("Lab 4 (1234)").
+/// * Moodle: a column of participants ("Participant 900001"), and the grade, in the column before the maximum grade.
+/// * Canvas: a second column "ID", and assignments with a number after their name ("Lab 4 (1234)").
 class PlatformSheet {
   public:
     enum class Platform { kMoodle, kCanvas };
-    /// A row that is somebody's; what the file does not say is empty.
+    /// A row that belongs to a person; fields that the file does not contain are empty.
     struct Person {
         std::size_t row = 0;
         std::string number, id, mail, name;  ///< number: of Moodle's participant, or Canvas's ID
@@ -66,7 +66,7 @@ class PlatformSheet {
     std::vector<Message> unrecognized_;
 };
 
-/// The participants' numbers of students, by id: whose id, mail or, where nobody else has it, name the table has.
+/// The participant numbers of students, by student id. A row matches by id, by mail, or by a name that is unique.
 std::map<std::string, std::string> numbers_in(const PlatformSheet& sheet, const std::vector<Student>& students);
 
 }  // namespace dynlab::inline course

@@ -31,7 +31,7 @@ struct ReturnOutcome {
 ///
 /// The participant number of a student comes from the worksheet, else from the names of the files received for this
 /// assignment, else from the roster. A number that is known to belong to another assignment is not used. A file that
-/// replaces an older version counts as new. The store records the returned files.
+/// replaces an older version counts as new. The course database logs the returned files.
 /// Throws InvalidArgument if the folder exists.
 ReturnOutcome return_files(Course& course, const Assignment& assignment, const ReturnRequest& request);
 

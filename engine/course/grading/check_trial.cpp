@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kScaled = 1.5;
-constexpr double kSlow = 0.5;  // s: a check that takes longer is told
+constexpr double kSlow = 0.5;  // s: a check that takes longer is reported
 
 bool full(const EvaluatedCheck& check) {
     return check.check.by_hand || check.share == 1;
@@ -41,7 +41,8 @@ std::vector<fs::path> scripts_in(const fs::path& folder, const std::string& begi
     return found;
 }
 
-/// The worked solution's runs with one answer changed; of texts and records one cannot say what is wrong.
+/// The runs of the reference solution with one answer changed. Texts and data sets have no clearly wrong value and are
+/// left out.
 std::vector<std::pair<std::string, CheckedSubmission>> mutants_of(const CheckedSubmission& solution) {
     std::vector<std::pair<std::string, CheckedSubmission>> mutants;
     for (const auto& [name, answer] : solution.runs.at(kMainRun).answers) {
@@ -75,7 +76,7 @@ std::set<double> numbers_of_checks(const std::string& checks) {
     return numbers;
 }
 
-/// The starter with one answer of the solution that is a number, which stands nearly so in checks.lua.
+/// The starter with one numeric answer replaced by a number in checks.lua that is close to the solution's value.
 std::vector<std::pair<std::string, CheckedSubmission>> typed_in(const CheckedSubmission& starter,
                                                                 const CheckedSubmission& solution,
                                                                 const std::set<double>& numbers) {

@@ -24,7 +24,7 @@ struct CheckTrial {
     /// Of every check by its place: whether something tried here fails it, and whether the solution passes it.
     bool fails_sometimes(std::size_t check) const;
     bool solution_passes(std::size_t check) const;
-    /// The worked solution passes all, and no check stops with an error of its own on it.
+    /// Whether the reference solution passes all checks and no check stops with its own error on it.
     bool sound() const;
 };
 

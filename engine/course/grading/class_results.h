@@ -32,7 +32,7 @@ struct Attention {
 };
 Attention what_needs_attention(const ClassResults& results);
 
-/// For each entry the name of the one that counts in place of it, for each of its owners; empty where it counts itself.
+/// For each entry, the name of the entry that counts instead, for each of its owners; empty if the entry itself counts.
 std::vector<std::string> counted_instead(const ClassResults& results);
 
 /// Writes gradebook.csv (a row for each student of the roster, or each submission where there is none) and the summary

@@ -26,9 +26,9 @@ struct CheckStatistics {
 /// Checks in the order of the first grade; grades without checks are passed over.
 std::vector<CheckStatistics> statistics_of_checks(const std::vector<Grade>& grades);
 
-/// Of a class as JSON, for programs: {lesson, works, graded, mean, median, checks: [{id, about, points, graded, passed,
-/// mean_share, discrimination, mistakes: [{said, count}]}], results: [{submission, points, possible, penalty, whole,
-/// trouble, checks: {id: points}}]}; what is not known is null.
+/// Statistics of a class as JSON, for programs: {lesson, works, graded, mean, median, checks: [{id, about, points,
+/// graded, passed, mean_share, discrimination, mistakes: [{said, count}]}], results: [{submission, points, possible,
+/// penalty, whole, `trouble`, checks: {id: points}}]}; unknown values are null.
 std::string class_statistics_json(const std::string& lesson, const std::vector<Grade>& grades);
 
 }  // namespace dynlab::inline course

@@ -167,7 +167,7 @@ std::string readable_markdown(const std::string& text) {
 std::string escaped_markdown(const std::string& text) {
     constexpr std::string_view kHarmless = ",.:;%?!'\"()/";
     std::string result;
-    // Documents refuse a word {=latex} wherever it stands, as it marks raw output.
+    // Documents refuse the text {=latex} at any position, as it marks raw output.
     for (const char c : replaced(text, "{=", "{ =")) {
         const auto byte = static_cast<unsigned char>(c);
         if (byte < 0x20 || byte == 0x7F) {

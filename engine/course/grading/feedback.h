@@ -16,9 +16,9 @@ std::string escaped_markdown(const std::string& text);
 /// The same for readers of the Markdown itself: only what would change its meaning is escaped.
 std::string readable_markdown(const std::string& text);
 
-/// What the student gets, as Markdown. It is titled after whom it is for and in the language of what was handed in;
-/// what checks say is as their author wrote it, or as the lesson's checks.LANGUAGE.po has it. Of hidden checks it has
-/// points and hint only.
+/// The student's feedback, as Markdown. Its title names the owner, and its language is that of the submission. Messages
+/// of checks are as their author wrote them, or as the lesson's checks.LANGUAGE.po translates them. For hidden checks
+/// the feedback contains only points and hint.
 std::string feedback_markdown(const Grade& grade);
 
 /// The same as `pdf`, set from report_templates/feedback.md. The file `made` remembers from what text and to which

@@ -158,7 +158,7 @@ class FolderCheck {
         return false;
     }
 
-    /// Of a notebook that was handed in instead.
+    /// Converts submitted notebooks to scripts. Returns false if a notebook cannot be read.
     bool scripts_made() {
         try {
             of_notebook_ = !take_notebooks(copy()).empty();
@@ -235,7 +235,7 @@ class FolderCheck {
         struct Blanks {
             std::string question;     ///< its number; empty above the first
             int line;                 ///< of the first
-            std::string code, words;  ///< the marks that stand there
+            std::string code, words;  ///< the marks found at that place
         };
         static const RE2 kQuestion(R"(\*\*Question (\d{1,4})\b)", RE2::Latin1);
         std::vector<Blanks> found;
@@ -368,12 +368,13 @@ class FolderCheck {
             const auto language = own.metadata.find("lang");
             standard.language = language == own.metadata.end() ? "en" : language->second;
         } catch (const std::runtime_error&) {
-            // A template or header that cannot be read is a finding of its own: the report was not made.
+            // A template or header that cannot be read needs no message here: a separate finding reports that the
+            // report was not made.
         }
         return standard;
     }
 
-    /// The authors themselves are looked for, whoever else is.
+    /// The check always looks for the authors' own names, in addition to any other names.
     void add_members(CheckOptions& check_options) {
         IdentityMatcher names = check_options.names ? *check_options.names : IdentityMatcher();
         const std::vector<Student> members = members_of(copy() / "group.toml");

@@ -14,9 +14,9 @@ struct FolderReport {
     Message failure;                       ///< a sentence: why there is no report otherwise
 };
 
-/// The report of a student's folder, made by `program` (dynlab) in a box as grading does, as the analysis may be
-/// anybody's: report.pdf, and record.json of its run, in `out`, an empty folder. The program reports what goes wrong as
-/// if it had worked in the folder itself. Throws MissingProgram.
+/// Creates the report of a student's folder with `program` (dynlab), in a sandbox as grading does, because the analysis
+/// is untrusted. Writes report.pdf and record.json of the run into `out`, an empty folder. Errors are reported as if
+/// the program had worked in the folder itself. Throws MissingProgram.
 FolderReport make_folder_report(const std::filesystem::path& folder, const std::filesystem::path& out,
                                 const std::filesystem::path& program, Isolation isolation, const TimeLimits& time);
 

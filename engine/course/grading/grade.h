@@ -17,7 +17,7 @@ struct CheckGrade {
     bool graded = true;    ///< false: the check itself is broken, or could not be run
     bool by_hand = false;  ///< the instructor marks it, in marks.csv, by the rubric
     std::string rubric = {};
-    Message for_instructor = {};  ///< what the message must not say of secret records; not part of the result
+    Message for_instructor = {};  ///< text with details of hidden data sets; not part of the result
 };
 
 /// A submission's result.
@@ -35,7 +35,7 @@ struct Grade {
     Message lateness;                    ///< why there is a penalty, as Deadlines says
     std::string title;                   ///< whom the feedback is for: a group or a person
     std::string language;                ///< of the feedback; English where it has no catalog
-    std::string counts_instead;          ///< the hand-in of the same owner that counts; empty where this one does
+    std::string counts_instead;          ///< the submission of the same owner that counts; empty if this one does
     bool newest_counts = false;          ///< ... as it is the newest; else as it is the better one
     std::optional<double> whole_mark;    ///< the instructor's mark for the whole submission: it replaces all points
     Message whole_reason;                ///< of that mark, for the student
@@ -48,8 +48,8 @@ struct Grade {
     bool without_marks() const { return unreadable && !whole(); }  ///< until the instructor gives them by hand
 };
 
-/// Gradescope's results.json of `marked`, which is `grade` with the instructor's own marks; `grade` itself and what
-/// that format does not know stand in extra_data. What hidden checks say stands nowhere.
+/// Gradescope's results.json of `marked`, which is `grade` with the instructor's own marks. extra_data contains `grade`
+/// itself and the fields that the format lacks. The messages of hidden checks appear nowhere.
 std::string to_results_json(const Grade& grade, const Grade& marked);
 /// The `grade` of that text. Throws EnvironmentError for a text that to_results_json did not make.
 Grade from_results_json(const std::string& text);

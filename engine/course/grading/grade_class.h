@@ -41,11 +41,11 @@ GradingOutcome grade_part_of_class(const ClassWork& work, const WorkPart& part, 
 MissingParts ungraded_parts(const ClassWork& work, int parts, const EvaluatedRules& evaluated,
                             const GradingOptions& options);
 
-/// Grades a class. In `options.out`: results/NAME/ with results.json and feedback.md and .pdf for each submission,
-/// logs/NAME/log.txt, which may quote hidden records, gradebook.csv, summary.md or .pdf, marks.csv. Each submission is
-/// graded alone, in boxes, by as many threads as `setup.jobs`; a result whose inputs are unchanged is kept, so that a
-/// run that was ended goes on where it was. Marks depend on neither the order nor the threads. The caller has the lock
-/// of the folder. Throws Interrupted after Ctrl-C.
+/// Grades a class. Files in `options.out`: results/NAME/ with results.json and feedback.md and .pdf for each
+/// submission, logs/NAME/log.txt, which may quote hidden data sets, gradebook.csv, summary.md or .pdf, marks.csv. Each
+/// submission is graded in its own sandbox, by `setup.jobs` threads. A result whose inputs are unchanged is kept, so
+/// that an interrupted run resumes where it stopped. Marks depend on neither the order nor the threads. The caller
+/// holds the lock of the folder. Throws Interrupted after Ctrl-C.
 GradingOutcome grade_class(const ClassWork& work, const EvaluatedRules& evaluated, const GradingOptions& options);
 
 }  // namespace dynlab::inline course

@@ -5,7 +5,8 @@
 
 namespace dynlab::inline course {
 
-/// A submission's result as data_io/values/described.h stores it: without its log, and without what only the log tells.
+/// A submission's result as data_io/values/described.h stores it, without its log and without values that appear only
+/// in the log.
 
 template <Is<CheckGrade> T, class V>
 void describe(T& object, V& member) {

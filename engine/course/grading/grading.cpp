@@ -25,7 +25,7 @@ std::optional<Grade> GradingPipeline::cached_grade(const WorkItem& item, const s
     return grade && grade->fingerprint == key ? grade : std::nullopt;
 }
 
-/// Its files in a folder of their own, and the script there run in boxes.
+/// Copies the item's files into a separate folder and runs the script there in sandboxes.
 GradingPipeline::Run GradingPipeline::run(const WorkItem& item) const {
     std::string log;
     const std::string key = rules_.run_fingerprint(item.content, item.seed);

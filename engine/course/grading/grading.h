@@ -15,7 +15,7 @@ struct GradingOptions {
     GradingSetup setup;
     std::filesystem::path out;   ///< folder of results
     bool regrade = false;        ///< also what has a result already
-    bool pdf = true;             ///< feedback and summary as PDF, besides Markdown
+    bool pdf = true;             ///< feedback and summary as PDF, in addition to Markdown
     bool above_maximum = false;  ///< marks of the instructor may exceed the points of their checks
 };
 

@@ -1,4 +1,4 @@
-// The records of GradingRules: hidden ones, those of reruns, those of groups.
+// The data sets of GradingRules: hidden ones, those of reruns, those of groups.
 #include <fmt/format.h>
 
 #include "course/checks/read_checks.h"
@@ -20,8 +20,8 @@ std::uint32_t GradingRules::drawn(const std::string& what) const {
     return drawn_number(setup_.secret, setup_.lesson.slug, what);
 }
 
-/// A hidden record of every rig: which ones the checks ask for shows only while they run, and all take a tenth of a
-/// second together.
+/// Creates a hidden data set of every simulated plant. Only a running check shows which ones it needs, and all together
+/// take a tenth of a second.
 void GradingRules::make_records() {
     fs::create_directories(records_.path() / kHiddenRecords);
     for (const Plant& rig : plant_catalog()) make_record(rig.name, kHiddenRecords, records_.path() / kHiddenRecords);
@@ -47,13 +47,13 @@ void GradingRules::make_records() {
             if (!own_record(kHiddenRecords, name)) continue;
             fs::remove(records_.path() / kHiddenRecords / (name + ".mat"));
             fs::copy_file(entry.path(), records_.path() / kHiddenRecords / entry.path().filename());
-            variants_[kHiddenRecords].erase(name);  // the instructor's file stands for the simulated one
+            variants_[kHiddenRecords].erase(name);  // the instructor's file replaces the simulated one
             own_records_ += sha256_of_file(entry.path());
         }
     make_data_of_declared_plants();
 }
 
-/// A record from the instructor's folder of checks.
+/// A data set from the instructor's folder of checks.
 std::optional<fs::path> GradingRules::own_record(const std::string& folder, const std::string& data_set) const {
     if (!setup_.more_checks) return {};
     for (const char* ending : {".csv", ".mat"}) {
@@ -63,7 +63,7 @@ std::optional<fs::path> GradingRules::own_record(const std::string& folder, cons
     return {};
 }
 
-/// Hidden ones, and those of reruns, of all rigs that the files declare.
+/// Hidden data sets, and those of reruns, of all simulated plants that the files declare.
 void GradingRules::make_data_of_declared_plants() {
     if (declared_plants_.empty()) return;
     std::vector<RequestedRecord> requested;
@@ -91,7 +91,7 @@ void GradingRules::make_data_of_declared_plants() {
 }
 
 void GradingRules::make_record(const std::string& data_set, const std::string& run, const fs::path& folder) {
-    // Without the run: hidden records are further experiments with the apparatus of the rerun.
+    // The draw of the variant ignores `run`: hidden data sets are further experiments with the plant of the rerun.
     const PlantChoice choice{.specimen = drawn(data_set), .seed = drawn(noise_of(data_set, run))};
     variants_[run][data_set] = choice.specimen;
     write_variant_data(data_set, choice, folder);
@@ -119,7 +119,7 @@ std::vector<std::string> GradingRules::simulated() const {
     return *simulated_;
 }
 
-/// The official data, a group's own records among them, as groups have them.
+/// The official data with a group's own data sets, as the group has them.
 fs::path GradingRules::data_of(const GroupSeed& group_seed) const {
     if (!group_seed) return official_data();
     const std::lock_guard lock(*making_);

@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr auto kCheckTime = std::chrono::milliseconds(10000);     // of one check
-constexpr auto kSingleTime = std::chrono::milliseconds(60000);    // of all, where each needs a box of its own
+constexpr auto kSingleTime = std::chrono::milliseconds(60000);    // of all checks, when each runs in its own sandbox
 constexpr auto kDocumentTime = std::chrono::milliseconds(15000);  // beyond the script's own
 constexpr int kClockMultiple = 20;  // a script cannot wait: only a busy machine makes its run last
 constexpr std::uint64_t kScriptMemory = 1ull << 30;
@@ -125,7 +125,7 @@ fs::path GradingRules::add_home(Sandbox& sandbox, const std::string& run, const 
     return sandbox.add(data, "/box/home/data").parent_path();
 }
 
-/// One run of the script, in a box of its own: there are neither records of other runs nor what they left behind.
+/// One run of the script in its own sandbox, without the data sets and files of other runs.
 GradedRun GradingRules::run(const std::string& name, const fs::path& folder, const GroupSeed& group_seed,
                             std::string& log) const {
     Sandbox sandbox(setup_.isolation);
@@ -157,7 +157,7 @@ GradedRun GradingRules::run(const std::string& name, const fs::path& folder, con
     return run;
 }
 
-/// The run on the official data and the reruns, by name: side by side as far as cores are free.
+/// The run on the official data and the reruns, by name, in parallel on the free cores.
 std::map<std::string, GradedRun> GradingRules::runs(const fs::path& folder, const GroupSeed& group_seed,
                                                     std::string& log) const {
     std::vector<std::string> names = {kMainRun};
@@ -250,7 +250,7 @@ std::vector<std::vector<EvaluatedCheck>> GradingRules::evaluated(
     return all;
 }
 
-/// Each check in a box of its own; only those stay without a verdict that come to no end there.
+/// Runs each check in its own sandbox. Only the checks that do not finish there have no result.
 std::vector<GradingRules::CheckAttempt> GradingRules::verdicts_one_by_one(const Work& work) const {
     const Message unreadable_result = Message("the result of the run cannot be read");
     std::vector<CheckAttempt> all;
@@ -267,8 +267,8 @@ std::vector<GradingRules::CheckAttempt> GradingRules::verdicts_one_by_one(const 
     return all;
 }
 
-/// Answers that crash one check, or hold it up, take the others of their submission with them; then each is tried by
-/// itself.
+/// Answers that crash or block one check also stop the other checks of their submission; each check is then run
+/// separately.
 std::vector<std::vector<GradingRules::CheckAttempt>> GradingRules::verdicts(std::vector<Work>& works) const {
     const SandboxResult<CheckResults> together = checked(works, kSingleTime);
     const bool answered = together.output && together.output->judged.size() == works.size();
@@ -385,7 +385,7 @@ std::string GradingRules::run_fingerprint(const std::string& content_hash, const
                           setup_.secret, std::to_string(setup_.time.processor.count()),
                           isolation_name(setup_.isolation), fmt::format("{}", fmt::join(reruns_, " ")),
                           document_ ? standard_ : "", own_records_,
-                          declared_plants_.empty() ? "" : json_of(files_),  // which make records
+                          declared_plants_.empty() ? "" : json_of(files_),  // which create data sets
                           group_seed ? std::to_string(*group_seed) : ""});
 }
 

@@ -23,9 +23,10 @@ struct SandboxResult;
 
 struct GradingSetup {
     Lesson lesson;
-    /// The instructor's own folder of *.lua; its folders hidden and rerun may hold records, NAME.csv or NAME.mat.
+    /// The instructor's own folder of *.lua files; its folders hidden and rerun may contain data sets, NAME.csv or
+    /// NAME.mat.
     std::optional<std::filesystem::path> more_checks;
-    std::string secret;  ///< of the course: what the hidden records are drawn from
+    std::string secret;  ///< of the course: the source of the hidden data sets' random numbers
     Isolation isolation = Isolation::kFull;
     TimeLimits time{std::chrono::seconds(60)};  ///< of each run of a student's script
     std::filesystem::path program;              ///< dynlab
@@ -37,22 +38,22 @@ struct GradingSetup {
 
 inline constexpr char kDocumentFails[] = "document-fails";  ///< id of the finding that a report cannot be made
 
-/// What all submissions of a lesson are held against: the checks, the hidden records, and the check of the checks
-/// themselves, which are tried on the lesson's worked solution first.
+/// The standard for all submissions of a lesson: the checks, the hidden data sets, and the test of the checks
+/// themselves, which first run on the lesson's reference solution.
 class GradingRules {
   public:
-    /// Makes the records. Throws EnvironmentError for a lesson without checks.lua, check files that cannot be read, a
-    /// rerun of a data set that no rig makes.
+    /// Creates the data sets. Throws EnvironmentError for a lesson without checks.lua, check files that cannot be read,
+    /// or a rerun of a data set that no simulated plant creates.
     explicit GradingRules(GradingSetup setup);
 
-    /// Of a group that has records of its own (dynlab new --group-seed); nothing for the data of all.
+    /// The seed of a group with its own data sets (dynlab new --group-seed); nothing for the common data.
     using GroupSeed = std::optional<std::uint32_t>;
 
     /// What the checks are tried on: the runs of the script in `folder`, and findings of its document where a check
     /// asks for them. Errors of a script that was a notebook name its cells.
     CheckedSubmission work_in(const std::filesystem::path& folder, const GroupSeed& group_seed, std::string& log,
                               bool of_notebook = false) const;
-    /// Of a submission, to be judged.
+    /// A submission to be checked.
     struct Work {
         std::string name;
         CheckedSubmission submission;
@@ -101,11 +102,11 @@ class GradingRules {
     std::map<std::string, GradedRun> runs(const std::filesystem::path& folder, const GroupSeed& group_seed,
                                           std::string& log) const;
     Issues findings(const std::filesystem::path& folder, const GroupSeed& group_seed) const;
-    /// The checks as they are declared, and these records.
+    /// The declared checks, and the requested data sets.
     SandboxResult<CheckResults> listed(std::vector<RequestedRecord> records = {}) const;
     SandboxResult<CheckResults> checked(const std::vector<Work>& works, std::chrono::milliseconds most,
                                         std::optional<std::size_t> only = {}) const;
-    /// Nothing of a check for which no verdict can be had, and why, instead of one.
+    /// `result` is empty if a check has no result; the reason is given instead.
     struct CheckAttempt {
         std::optional<EvaluatedCheck> result;
         Message reason;
@@ -128,15 +129,15 @@ class GradingRules {
     std::uint32_t seed_ = 1;
     std::string standard_;  ///< the template, or the file of one, whose rules a document must keep
     mutable std::optional<std::vector<std::string>> simulated_;  ///< once they were asked for
-    std::map<std::string, PlantVariants> variants_;              ///< of hidden records and reruns (CheckSession)
+    std::map<std::string, PlantVariants> variants_;              ///< of hidden and rerun data sets (CheckSession)
     std::set<std::string> reruns_, broken_;
     std::map<std::string, double> solution_seconds_;
     std::vector<std::string> declared_plants_;
-    std::string own_records_;  ///< hashes of all data sets that scripts find, and of the instructor's records
+    std::string own_records_;  ///< hashes of all data sets that scripts find, and of the instructor's data sets
     bool document_ = false;
     std::unique_ptr<std::counting_semaphore<>> free_cores_;  ///< for what runs in boxes
     TemporaryFolder records_;
-    std::unique_ptr<std::mutex> making_ = std::make_unique<std::mutex>();  ///< of groups' records and simulated_
+    std::unique_ptr<std::mutex> making_ = std::make_unique<std::mutex>();  ///< guards groups' data sets and simulated_
 };
 
 }  // namespace dynlab::inline course

@@ -7,8 +7,8 @@
 
 namespace dynlab::inline course {
 
-/// What the author of a checks.lua says to students, each sentence once: the texts of say, hint, about, message and
-/// judge.
+/// The sentences that the author of a checks.lua writes for students, each once: the texts of say, hint, about, message
+/// and `judge`.
 std::vector<std::string> sentences_of_checks(const std::string& source);
 
 /// Writes the texts to translate, in English, into the lesson's folder: tasks.LANGUAGE.lua with the text cells, where

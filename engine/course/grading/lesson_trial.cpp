@@ -30,7 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kLanguages[] = {"en", "fr"};
-/// The findings of `dynlab check` that tell of pages and of what is missing on them.
+/// The findings of `dynlab check` about pages and their missing content.
 constexpr const char* kFindingsOfPages[] = {"pages",         "section-missing",      "section-empty",
                                             "slot-unfilled", "reference-unresolved", "text-cut-off"};
 
@@ -156,7 +156,7 @@ void look_at_attempt(const fs::path& file, const EvaluatedScript& evaluated, Fau
     }
 }
 
-/// The rules of a lesson's report, where it has one of its own form.
+/// The rules of a lesson's report, if the lesson has its own report template.
 DocumentStandard standard_of_report(const Lesson& lesson, const std::string& language) {
     if (!fs::exists(lesson.report(language))) return {};
     return standard_of_lesson(lesson, language);

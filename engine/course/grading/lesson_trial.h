@@ -6,7 +6,7 @@
 
 namespace dynlab::inline course {
 
-/// Something in a lesson that must not stand before a class, with its file in the lesson's folder.
+/// A fault in a lesson that must be fixed before the lesson is used in class, with its file in the lesson's folder.
 struct LessonFault {
     std::string file;
     int line = 0;  ///< 0: the whole file
@@ -14,9 +14,9 @@ struct LessonFault {
 };
 using LessonFaults = std::vector<LessonFault>;
 
-/// What its files say: headers, cells, marks of solutions, Lua that cannot be read, names and options that nobody
-/// knows, hints, tasks and reports in other languages that do not fit, tasks that do not say their language, sentences
-/// of the checks that are not translated, an answer that is never handed in. Nothing is run.
+/// Checks the lesson's files without running them: headers, cells, marks of solutions, Lua that cannot be read, unknown
+/// names and options, hints, tasks and reports in other languages that do not fit, tasks without a declared language,
+/// untranslated sentences of the checks, an answer that is never submitted.
 LessonFaults faults_of_texts(const Lesson& lesson);
 
 /// What its checks give: the worked solution wants full marks, the untouched starter none; each wrong_*.lua has to fail

@@ -63,7 +63,7 @@ class MarkedItems {
                    (owner.anybody() &&
                     (item.students == owner.students || (!owner.group.empty() && item.group == owner.group)));
         });
-        std::set<std::string> owners;  // a number of a platform may be the id of somebody else
+        std::set<std::string> owners;  // a platform's number may be the id of another student
         for (const WorkItem* item : found.items) owners.insert(owner_of(*item));
         if (owners.size() > 1 || owner.doubtful) {
             const std::vector<std::string> names(owners.begin(), owners.end());

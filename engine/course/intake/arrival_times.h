@@ -10,9 +10,9 @@
 
 namespace dynlab::inline course {
 
-/// When submissions were received, as the learning platform's table tells: Moodle's grading worksheet ("Last modified
-/// (submission)", in several languages), or any CSV with a column id, identifier, group, name, mail or email, and one
-/// time or received. Who is not in it, or has no time there ("-"), has none.
+/// The times when submissions were received, from the learning platform's table: Moodle's grading worksheet ("Last
+/// modified (submission)", in several languages), or any CSV with a column id, identifier, group, name, mail or email,
+/// and a column time or received. A student without a row, or with the time "-", has no time.
 class ArrivalTimes {
   public:
     ArrivalTimes() = default;

@@ -8,7 +8,7 @@ namespace dynlab::inline course {
 
 enum class Severity { kRule, kHint };  ///< a rule of the course is broken; something worth a look
 
-/// Something that is wrong with a document and how to mend it. Ids are stable: programs may rely on them.
+/// A problem in a document and how to fix it. Ids are stable: programs may rely on them.
 struct Issue {
     std::string id;  ///< such as "figure-not-mentioned"
     Severity severity = Severity::kRule;

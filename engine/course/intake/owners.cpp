@@ -51,7 +51,7 @@ Words with_plain_groups(Words words) {
     return words;
 }
 
-/// The words from each place on, those before it at the end: a family's name may stand first.
+/// All rotations of the words, because the family name may come first.
 std::vector<Words> rotations_of(Words words) {
     std::vector<Words> all;
     for (std::size_t i = 0; i < words.size(); ++i) {
@@ -238,7 +238,7 @@ std::vector<std::size_t> Owners::students_called(const std::string& name) const 
     return exactly.empty() ? students : exactly;
 }
 
-/// Names and numbers that stand anywhere among the words, without those within a longer one.
+/// Names and numbers at any position among the words, without those inside a longer match.
 std::vector<Owners::Evidence> Owners::evidence_in(const Words& words) const {
     std::vector<Evidence> all;
     for (std::size_t begin = 0; begin < words.size(); ++begin)
@@ -294,7 +294,7 @@ Owners::Found Owners::found(const std::vector<std::size_t>& owners, bool by_pref
     return result;
 }
 
-/// Of those whom a platform names as having handed in together; without groups it is theirs together.
+/// The owner of a submission whose senders a platform lists. Without groups, the listed students own it together.
 Owners::Found Owners::by_list(const std::vector<Submitter>& submitters) const {
     std::vector<std::size_t> students;
     for (const Submitter& submitter : submitters)
@@ -364,7 +364,8 @@ Owners::Found Owners::as_written(const Submission& submission) const {
         }
         owners = without_doubles(owners);
     }
-    // The platform's number tells two of one name apart; where name and number contradict each other, nobody guesses.
+    // The platform's number distinguishes two students with the same name. If name and number contradict each other,
+    // the submission stays unmatched.
     if (!by_platform.empty()) {
         const std::vector<std::size_t> numbered = owners_of(by_platform);
         if (owners.empty()) return found(numbered);

@@ -17,7 +17,7 @@ namespace dynlab::inline course {
 /// words and numbers ("group-03", "Group 3", "gruppe_03_final"). A submission of one member belongs to the group.
 class Owners {
   public:
-    /// `groups`: names besides those of the students' groups. `students` must outlive it.
+    /// `groups`: names in addition to those of the students' groups. `students` must outlive this object.
     explicit Owners(const std::vector<Student>& students, const std::vector<std::string>& groups = {});
 
     /// The instructor's own list, which goes before everything else: a CSV with the column `submission` (a name, with
@@ -30,9 +30,9 @@ class Owners {
     struct Found {
         std::vector<std::size_t> students;  ///< places in `students`: all of the group; may be none of an empty group
         std::string group;                  ///< empty for a student without one
-        bool by_prefix = false;  ///< the name is, or begins with, the owner's; else it stands somewhere in it
-        Message error_reason;    ///< nobody, and why: "it fits several: group-1, group-2"
-        bool doubtful = false;   ///< nobody, as more than one could be meant
+        bool by_prefix = false;  ///< the name is, or begins with, the owner's; otherwise it contains the owner's name
+        Message error_reason;    ///< no owner, and why: "it fits several: group-1, group-2"
+        bool doubtful = false;   ///< no owner, because several are possible
         bool anybody() const { return error_reason.empty(); }
     };
     /// If a name matches no owner and comes from an archive without a character set, it is also read in the character

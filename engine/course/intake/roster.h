@@ -13,11 +13,11 @@ struct FormerName {
 
 struct Student {
     std::string id, name, group;
-    std::optional<std::uint32_t> seed;        ///< the group's, where groups have records of their own
+    std::optional<std::uint32_t> seed;        ///< the group's, if groups have their own data sets
     std::string mail, moodle, canvas;         ///< address; numbers by which the learning platforms know the student
     std::vector<FormerName> former{};         ///< looked for in documents like what is known now
-    std::vector<std::string> other_groups{};  ///< where they are or were besides; looked for like `group`
-    std::string language{};                   ///< "en" or "fr"; empty where the roster does not tell
+    std::vector<std::string> other_groups{};  ///< former or additional groups; searched for like `group`
+    std::string language{};                   ///< "en" or "fr"; empty if the roster states none
 };
 
 /// Our name of a column that a platform's table has: id, name, first, last, group, email, moodle; any other header in
@@ -27,7 +27,7 @@ std::string our_column(const std::string& header);
 /// "Participant 900010" as 900010.
 std::string digits_at_end(const std::string& text);
 
-/// Group, id and name, of which an instructor may use each for what the student hands in; those that are known.
+/// The known names of a student that an instructor may use for a submission: group, id and name.
 std::vector<std::string> known_names_of(const Student& student);
 
 /// The students of a course. The file has a column `id`, and optionally `name`, `group`, `seed`, `email` (or `mail`),

@@ -58,7 +58,7 @@ VersionName version_of(const std::string& shown) {
     return version;
 }
 
-/// The newest, where one is; nothing where that cannot be told.
+/// The newest script; nothing if the versions cannot be ordered.
 std::optional<FoundScript> newest_of(const std::vector<FoundScript>& found) {
     std::vector<VersionName> versions;
     for (const FoundScript& script : found) versions.push_back(version_of(script.shown));
@@ -77,7 +77,7 @@ std::optional<FoundScript> newest_of(const std::vector<FoundScript>& found) {
     return newest_by([&](auto i, auto k) { return found[i].written > found[k].written + kSameTime; });
 }
 
-/// PowerShell's > writes UTF-16. Nothing but a byte order mark at its start tells of it.
+/// PowerShell's > writes UTF-16. Only a byte order mark at the start of the file shows this encoding.
 void make_utf8(const fs::path& script) {
     constexpr std::uintmax_t kMostText = 4u << 20;
     if (fs::file_size(script) > kMostText) return;
@@ -146,7 +146,7 @@ class Stager {
     Stager(const Submission& submission, const fs::path& to, Isolation level, const fs::path& program,
            const SubmissionLimits& limits)
         : submission_(submission), to_(to), root_(to / "unpacked"), level_(level), program_(program), limits_(limits) {
-        limits_.keep_times = true;  // they tell which version is the newest
+        limits_.keep_times = true;  // they show which version is the newest
     }
 
     StagedWork stage() {

@@ -49,7 +49,8 @@ std::string name_of_entry(const fs::path& entry) {
     return composed(utf8_of_name(entry.filename().string()));
 }
 
-/// Files that somebody may have handed in for a folder, to be complained of by the owner's name.
+/// Files in the folder of submissions that may be a submission in a wrong format; a message reports them by the owner's
+/// name.
 bool can_be_work(const std::string& name) {
     static const std::set<std::string> kEndings = {".lua",   ".pdf", ".rar", ".7z", ".docx", ".doc",
                                                    ".ipynb", ".odt", ".m",   ".py", ".gz",   ".bz2"};
@@ -222,7 +223,7 @@ std::optional<std::string> archive_stem(const std::string& name) {
 }
 
 std::optional<std::string> read_lms_name(Submission& submission) {
-    // What the platform wrote stands first; what comes after it is the student's own and may look the same.
+    // The platform's prefix comes first; the student's own part follows and may look the same.
     static const RE2 canvas(R"(([^_]+)(_LATE)?_(\d+)_\d+_(.*))", RE2::Latin1);
     static const RE2 moodle(R"((.+?)_(\d+)_assignsubmission_(?:file|onlinetext)_?(.*))", RE2::Latin1);
     std::string person, late, id, own;

@@ -10,7 +10,7 @@
 
 namespace dynlab::inline course {
 
-/// Somebody whom a platform's list names as a sender.
+/// A sender according to a platform's list.
 struct Submitter {
     std::string name, id, mail;
 };
@@ -34,12 +34,12 @@ struct Submission {
     std::vector<Submitter> submitters{};  ///< of Gradescope's list
 };
 
-/// What stands in `folder`: folders, archives (.zip, .tar, .tar.gz, .tgz, .tar.xz), and files that can be somebody's
-/// work, sorted by name. Hidden entries, what systems add (__MACOSX, Thumbs.db) and Moodle's folders of typed text are
-/// passed over, and so is `results`; links and other files go to `left_out`, each as a clause. Recognized are Moodle's
-/// "Name_ID_assignsubmission_file_...", Canvas's "name_LATE_ID_ID_file.zip", whose loose files of one sender are
-/// joined, and Gradescope's submission_metadata.yml; one folder around all of it is looked through. Throws
-/// EnvironmentError where there is none.
+/// The submissions in `folder`: folders, archives (.zip, .tar, .tar.gz, .tgz, .tar.xz), and files that can be a
+/// student's work, sorted by name. The function skips hidden entries, files that systems add (__MACOSX, Thumbs.db),
+/// Moodle's folders of typed text, and `results`. Links and other files go to `left_out`, each as a clause. Recognized
+/// names are Moodle's "Name_ID_assignsubmission_file_..." and Canvas's "name_LATE_ID_ID_file.zip", and Gradescope's
+/// submission_metadata.yml; loose Canvas files of one sender are joined. A single folder around all submissions is
+/// opened. Throws EnvironmentError if there are no submissions.
 std::vector<Submission> submissions_in(const std::filesystem::path& folder, std::vector<Message>& left_out,
                                        const std::filesystem::path& results = {});
 

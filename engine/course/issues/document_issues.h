@@ -39,7 +39,8 @@ struct CheckOptions {
     std::optional<DocumentStandard> standard;
     std::optional<int> pages;   ///< the most that are allowed altogether
     bool lesson_checks = true;  ///< of a folder: try the lesson's checks on its answers too
-    /// Who must not be named; of a folder its members are added. Nobody: of a PDF, names are not looked for.
+    /// Names that must not appear; for a folder, the names of its members are added. Null: names in a PDF are not
+    /// checked.
     std::shared_ptr<const IdentityMatcher> names = nullptr;
     std::function<void(CheckStep)> begins = [](CheckStep) {};  ///< called as a step begins
 };

@@ -110,7 +110,7 @@ std::vector<TextLine> lines_of_page(const PdfPage& page, int number) {
     return lines;
 }
 
-/// The smallest size: what stands for the prose where there are headings only.
+/// The smallest size: the size of the prose if the document contains only headings.
 double smallest_size(const std::vector<TextLine>& lines) {
     const auto smaller = [](const TextLine& a, const TextLine& b) { return a.size < b.size; };
     const auto smallest = std::ranges::min_element(lines, smaller);

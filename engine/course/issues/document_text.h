@@ -6,7 +6,7 @@
 
 namespace dynlab::inline course {
 
-/// Words that stand side by side on a page. Page numbers and turned text (axis labels) are left out.
+/// Words next to each other in one line of a page. Page numbers and turned text (axis labels) are left out.
 struct TextLine {
     int page = 1;  ///< 1-based
     double left = 0, top = 0, right = 0, bottom = 0, size = 0;

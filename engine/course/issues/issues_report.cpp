@@ -57,7 +57,7 @@ class Writer {
         return in_color_ ? style + text + kPlain : text;
     }
 
-    /// Findings that belong together, those of one kind behind one another; a remedy they share stands once.
+    /// Formats findings that count alike. Findings of one kind follow each other, and a shared remedy is printed once.
     std::string group(const CheckResult& result, Counted as, const char* style, const Message& title) const {
         std::vector<std::pair<std::string, std::vector<const Issue*>>> kinds;
         std::size_t count = 0;

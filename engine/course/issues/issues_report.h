@@ -6,8 +6,8 @@
 
 namespace dynlab::inline course {
 
-/// The outcome for a reader: rules broken, then hints, each with its place and remedy; one line when there is nothing
-/// to mend. Text from the document is shown without control characters.
+/// The outcome for a reader: broken rules, then hints, each with its place and remedy; one line if there is nothing to
+/// fix. Text from the document is shown without control characters.
 std::string issues_as_text(const CheckResult& result, bool in_color, const Reader& reader = {});
 
 /// The outcome for a program, as JSON in UTF-8:
@@ -16,8 +16,8 @@ std::string issues_as_text(const CheckResult& result, bool in_color, const Reade
 ///      "checked": ["7 pages of at most 6 + 1 of appendix", ...],
 ///      "findings": [{"id": "pages", "severity": "rule", "page": 7, "place": null, "what": "...", "remedy": "..."}]}
 ///
-/// severity is "rule" or "hint"; template, language, pages, page and place are null where nothing is known. The
-/// messages that the texts were made of stand beside them, as what_message, remedy_message and checked_messages
+/// severity is "rule" or "hint"; template, language, pages, page and place are null if unknown. The fields
+/// what_message, remedy_message and checked_messages contain the messages from which the texts were made
 /// (data_io/values/message_values.h).
 std::string issues_as_json(const CheckResult& result);
 

@@ -12,7 +12,7 @@ constexpr double kMinTextSize = 9.5, kRounding = 0.05;  ///< points
 constexpr double kSlideHeight = 96 * kPointsPerMm;
 constexpr double kSide = 15 * kPointsPerMm, kTopAndBottom = 12 * kPointsPerMm;
 constexpr int kManyAtSides = 5, kManyAtTop = 3;
-constexpr std::size_t kEnoughLetters = 300;  ///< of prose on a page, for its size to be judged
+constexpr std::size_t kEnoughLetters = 300;  ///< of prose on a page, required to check its size
 
 double scale_of(const DocumentText& text) {
     return text.is_slides() && text.height > 0 ? kSlideHeight / text.height : 1;

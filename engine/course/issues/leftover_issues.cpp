@@ -11,7 +11,7 @@
 namespace dynlab::inline course {
 namespace {
 
-constexpr std::size_t kWordsToKnow = 6;  ///< a shorter sentence may stand in a report by chance
+constexpr std::size_t kWordsToKnow = 6;  ///< a shorter sentence may appear in a report by chance
 constexpr std::size_t kMaxLeftovers = 10;
 
 struct Sign {

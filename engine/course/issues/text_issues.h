@@ -28,11 +28,11 @@ struct FigureFindings {
 FigureFindings figure_findings(const DocumentText& text, Severity not_mentioned);
 
 struct LanguageFindings {
-    std::string language;  ///< "en" or "fr": that of most function words; empty when there are too few to tell
+    std::string language;  ///< "en" or "fr": that of most function words; empty if there are too few
     Issues findings;
 };
 
-/// English and French told apart by their function words ("the", "which"; "les", "dans"). language-mixed (hint): a
+/// Distinguishes English and French by their function words ("the", "which"; "les", "dans"). language-mixed (hint): a
 /// passage in the other language. language-differs (hint): the document's language is not the `declared` one.
 LanguageFindings language_findings(const DocumentText& text, const std::optional<std::string>& declared);
 

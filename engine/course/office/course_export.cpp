@@ -65,7 +65,7 @@ std::string lab_csv(Course& course, const Assignment& a) {
                    "late", "points", "possible", "penalty", "percent", "reason"};
     auto versions = newest_versions(course, a);
     const auto authors = author_groups(course, a);
-    std::set<std::string> with_own;  // students with marks of their own
+    std::set<std::string> with_own;  // students with individual marks
     for (const GivenMark& mark : marks_in_force(course, a)) with_own.insert(mark.student);
     const std::vector<LabMark> of_groups = lab_marks(course, a);
     for (const Student& s : students_of(course)) {
@@ -96,7 +96,7 @@ using StoredRow = std::map<std::string, StoredCell>;
 /// The file of an export.
 struct CourseExport {
     int format = 1;
-    std::optional<std::int64_t> tables_version;  ///< the first exports did not tell it
+    std::optional<std::int64_t> tables_version;  ///< missing in the first exports
     std::map<std::string, std::vector<StoredRow>> tables;
 };
 

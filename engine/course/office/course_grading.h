@@ -24,7 +24,7 @@ GradingOutcome grade_assignment(Course& course, const Assignment& assignment, co
 
 // Its steps, which folder_grading.h takes too.
 
-/// What hidden records are drawn from. Throws EnvironmentError where the file is missing or empty.
+/// The secret from which hidden data sets are generated. Throws EnvironmentError if the file is missing or empty.
 std::string secret_in(const std::string& file);
 /// Throws InvalidArgument for an assignment that is no lab, EnvironmentError for an empty secret.
 GradingOptions grading_options(const Assignment& assignment, const CourseGradingRequest& request,

@@ -42,7 +42,7 @@ std::string cell_of(const SubmittedParts& parts, const std::string& main) {
     return cell;
 }
 
-/// By group: others who handed in the very same bytes.
+/// By group: other groups that submitted a file with the same bytes.
 std::map<std::int64_t, std::vector<std::string>> groups_with_the_same_file(Course& course,
                                                                            const Assignment& assignment) {
     std::map<std::int64_t, std::vector<std::string>> twins;

@@ -32,8 +32,8 @@ struct AssignmentState {
 };
 AssignmentState assignment_state(Course& course, const Assignment& assignment, Instant now);
 
-/// The state of an assignment as a table an instructor can act on: deadlines, a row for each group with what was handed
-/// in, what is late, what cannot be read, what to do about it, sums, and the next command.
+/// The state of an assignment as a table for the instructor: deadlines, a row for each group with its submissions, late
+/// and unreadable files and the required action, sums, and the next command.
 std::string assignment_status(Course& course, const Assignment& assignment, Instant now);
 
 /// The course at a glance: groups, assignments and their deadlines.

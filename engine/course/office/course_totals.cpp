@@ -19,7 +19,7 @@
 namespace dynlab::inline course {
 namespace {
 
-/// The marks of one assignment, as far as there are some.
+/// The marks of one assignment, if it has any.
 class AssignmentMarks {
   public:
     AssignmentMarks(Course& course, const Assignment& assignment, Instant now) : course_(course), a_(assignment) {
@@ -54,7 +54,7 @@ class AssignmentMarks {
 
     Course& course_;
     const Assignment& a_;
-    std::set<std::string> with_own_;  ///< students with marks of their own, in a lab
+    std::set<std::string> with_own_;  ///< students with individual marks, in a lab
     std::vector<LabMark> labs_;
     Marks marks_;
 };

@@ -25,8 +25,8 @@ std::map<std::string, AssignmentMark> marks_of_students(Course& course, const As
 std::optional<double> weighted_total(const std::vector<Assignment>& assignments,
                                      const std::vector<AssignmentMark>& marks);
 
-/// Records in the history that marks were written into `file`: of the course where `assignment` is empty. The totals
-/// are kept where there are some, so that changed_since_export can tell what is new.
+/// Adds an entry to the history: marks were written into `file`, those of the course if `assignment` is empty. The
+/// entry includes the totals if there are any, so that changed_since_export can report changes.
 void note_export(Course& course, const std::string& assignment, const std::string& file, const std::string& totals,
                  Instant now);
 

@@ -76,7 +76,7 @@ void CourseWork::date(WorkItem& item, const Stored& version, const Assignment& a
     if (needs_confirmation(item.lateness) && !version.confirmed) item.lateness = unconfirmed(item.lateness);
 }
 
-/// The file under a name that tells what it is.
+/// Adds the file under a name that shows its kind.
 void CourseWork::add(Course& course, const Stored& version, const Assignment& assignment) {
     const Group& group = groups_.at(version.group);
     const bool pack = version.part == "pack";

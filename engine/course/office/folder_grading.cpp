@@ -174,7 +174,7 @@ void FolderGrading::prepare(Course& course) {
                                    sha256_of_file(options_.setup.lesson.folder / "checks.lua")};
     now.inputs["checks"] = {shown_path(assignment_.checks),
                             fs::is_directory(assignment_.checks) ? digest_of_folder(assignment_.checks).hex() : ""};
-    now.inputs["secret"] = {shown_path(assignment_.secret),  // its file's own hash would help to guess it
+    now.inputs["secret"] = {shown_path(assignment_.secret),  // the file's own hash would help an attacker
                             options_.setup.secret.empty() ? "" : sha256_of("dynlab grade:" + options_.setup.secret)};
     now.inputs.try_emplace("deadlines");
     if (!request_.deadlines.empty()) now.inputs["deadlines"] = {request_.deadlines, sha256_of_file(request_.deadlines)};

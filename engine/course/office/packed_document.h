@@ -29,7 +29,7 @@ OpenedPack open_pack(const std::filesystem::path& pack, const std::string& part,
                      Isolation level, const std::filesystem::path& program);
 
 /// The points that the script of a review (report_templates/peer_review.lua) gives, by criterion: the entries NAME =
-/// NUMBER of its table `scores`. The script is read, not run; whatever else stands there gives nothing.
+/// NUMBER of its table `scores`. dynlab reads the script and does not run it; other entries give no points.
 std::map<std::string, double> scores_in_script(std::string_view script);
 
 /// The same of the analysis.lua that lies highest in an unpacked pack; nothing where there is none.

@@ -41,8 +41,8 @@ struct Candidate {
     Group group;
     std::string part, name, hash;
     std::int64_t bytes = 0;
-    Instant at = 0;      ///< when it was handed in
-    bool timed = false;  ///< as `time_of` tells
+    Instant at = 0;      ///< when it was submitted
+    bool timed = false;  ///< whether `time_of` returned the time
     std::optional<ReviewPair> pair;
     bool from_pack = false, made = false;  ///< a PDF that was taken out of the group's pack; made of it
     bool unreadable = false;               ///< no PDF, but the document all the same
@@ -142,13 +142,14 @@ class SubmissionReceiver {
         if (request_.stage == "review") candidate.pair = reviewed_pair(pairs_, *group, report_of(file));
     }
 
-    /// By what is told, which report a review is of.
+    /// The report that a review belongs to, according to the request.
     const std::string& report_of(const IncomingFile& file) const {
         if (request_.of.empty()) return file.name;
         return request_.of.size() == 1 ? request_.of.front() : request_.of[file.given];
     }
 
-    /// A report that is handed in once it was reviewed is the final version, unless the file is known.
+    /// Refuses a report that arrives after the reviews were sent or released. Such a report is the final version,
+    /// unless the file is already known.
     void refuse_after_reviews(const Candidate& candidate) const {
         bool sent = false, released = false;
         for (const ReviewPair& pair : pairs_) {
@@ -195,9 +196,9 @@ class SubmissionReceiver {
                 make_trace(c, kBeside, Message("The file was submitted together with the file that counts."));
     }
 
-    /// Of several files of a group for the same thing nobody can say which holds: they are kept as unreadable, unless
-    /// they are the same, as platforms give a team's file once for each member. Of a lab each is a version: the best
-    /// one or the newest counts, as where both partners submit.
+    /// Several files of a group for the same purpose are ambiguous. They are kept as unreadable, unless their contents
+    /// are equal, because platforms export a team's file once for each member. For a lab each file is a version: the
+    /// best or the newest one counts, as when both partners submit.
     void settle_doubles() {
         std::map<std::string, std::map<std::string, const IncomingFile*>> contents;  // by slot and hash, the first one
         std::map<std::string, int> files;
@@ -277,7 +278,7 @@ class SubmissionReceiver {
         course_.keep_files(files, look, request_.progress);
     }
 
-    /// Stands for a file that is too large to be kept.
+    /// An empty file that replaces a file too large to be kept.
     fs::path nothing() const {
         write_file_atomically(opened_.path() / "nothing", "");
         return opened_.path() / "nothing";
@@ -411,7 +412,7 @@ class SubmissionReceiver {
         received.id = added.id;
         received.late = added.late;
         received.marked_late = c.file->sender.late && received.late == 0;
-        // What its receipt tells is when this version came; what counts is when its content did.
+        // The receipt shows when this version arrived; the time when its content first arrived counts.
         if (Rows standing = db.query("SELECT late FROM standing WHERE id = ?", received.id); standing.next())
             received.late = standing.integer(0);
         for (std::size_t i = 0; i < a.criteria.size(); ++i) {

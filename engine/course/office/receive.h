@@ -16,7 +16,7 @@ struct ReceiveRequest {
     std::string assignment, stage = "first";  ///< "first", "review", "final"
     std::string from;                         ///< a group; empty: by the files' names
     std::vector<std::string> of;  ///< of reviews: the report's pseudonym for each file; empty: by the files' names
-    Instant at = 0;               ///< time of receipt, where `time_of` tells none
+    Instant at = 0;               ///< time of receipt, if `time_of` returns none
     std::function<std::optional<Instant>(const IncomingFile&)> time_of;  ///< may be empty (intake/arrival_times.h)
     std::map<std::string, std::string> numbers;  ///< of participants by student, instead of the roster's
     Isolation level = Isolation::kFull;
@@ -45,7 +45,7 @@ struct Received {
     bool marked_late = false;  ///< the platform wrote LATE into the name, though the time says nothing of it
     int scores = 0;            ///< that the pack of a review brought
     int rules_broken = 0;
-    bool names = false;        ///< of a review: it names somebody of the course
+    bool names = false;        ///< of a review: it names a member of the course
     std::string error_reason;  ///< when the file cannot be read: "damaged"
 };
 
@@ -56,9 +56,10 @@ struct ReceiveOutcome {
     std::filesystem::path receipts;  ///< folder with a receipt for each
 };
 
-/// Takes hand-ins into the course: in one transaction all that can be taken. A group's wrong file never stops
-/// others'; of a single file the trouble is thrown instead. Files are stored before the transaction and receipts are
-/// written after it, so that a crash loses nothing and the same command completes it.
+/// Receives submissions into the course, all acceptable ones in one transaction. A group's wrong file never stops the
+/// files of other groups; if the request contains a single file, its error is thrown instead. Files are stored before
+/// the transaction and receipts are written after it, so that a crash loses nothing and the same command completes the
+/// work.
 ReceiveOutcome receive(Course& course, const ReceiveRequest& request);
 
 }  // namespace dynlab::inline course

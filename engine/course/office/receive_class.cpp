@@ -184,7 +184,7 @@ class ClassReceiver {
         return is_one_archive(submission) ? submission.path.filename().string() : submission.name;
     }
 
-    /// Of the student or group that it belongs to; null where that is nobody.
+    /// The group of the student or group that owns the item; null if it has no owner.
     const Group* group_of_owner(const WorkItem& one) const {
         if (one.students.empty()) return nullptr;
         const auto found = groups_.find(one.group.empty() ? students_[one.students.front()].id : one.group);
@@ -222,7 +222,7 @@ class ClassReceiver {
         take_from_others(one);
     }
 
-    /// The roster or the list of owners gives it to somebody else than before.
+    /// Whether the roster or the list of owners now assigns the item to another owner.
     bool stands_with_others(const WorkItem& one) {
         return course_.database()
             .query("SELECT 1 FROM standing WHERE assignment = ? AND name = ? AND hash = ? AND group_id <> ?",

@@ -23,10 +23,11 @@ std::vector<Student> lone_students_of(Course& course);
 /// a course without students.
 void set_owners(Course& course, const Assignment& assignment, const std::filesystem::path& list);
 
-/// Takes a class's submissions into a lab as versions, in one transaction: each is one file, an archive as it came, or
-/// a zip of what was loose or in a folder, of equal bytes for equal files. One that the course has under this name
-/// already adds nothing. It is the student's or group's whom its name means; each of the others is a group of its own.
-/// It was received as `times` say, else when its newest file was written. What cannot be kept leaves a trace, too.
+/// Receives a class's submissions into a lab as versions, in one transaction. Each version is one file: an archive as
+/// it arrived, or a zip of loose files or of a folder, with equal bytes for equal files. A submission that the course
+/// already has under this name adds nothing. The submission's name identifies the student or group; each unmatched
+/// submission becomes a separate group. The time of receipt comes from `times`, else from the newest file. Submissions
+/// that cannot be kept are noted, too.
 ReceivedClass receive_class(Course& course, const Assignment& assignment, const ClassSubmissions& submissions,
                             const ArrivalTimes& times, Instant now);
 

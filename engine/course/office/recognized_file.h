@@ -17,7 +17,8 @@ std::string kind_of_file_at(const std::string& name, const std::filesystem::path
 struct RecognizedFile {
     std::string part;          ///< report, slides, script, review, pack; kUnreadable
     std::string name;          ///< under which it is kept: a PDF's ends in .pdf, so that all that follows knows it
-    std::string error_reason;  ///< id of why nobody can read it: "empty", "closed-archive", "other-kind"; else empty
+    std::string error_reason;  ///< id of the reason why the file is unreadable: "empty", "closed-archive",
+                               ///< "other-kind"; else empty
     Message reason;            ///< the same in a sentence
     Message remark;            ///< a clause where name and content differ
     bool text = false;         ///< a word processor's: kept as the document, which it is, though no PDF

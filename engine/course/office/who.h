@@ -12,7 +12,7 @@
 
 namespace dynlab::inline course {
 
-/// A version that a group of somebody submitted.
+/// A version that one of the person's groups submitted.
 struct WhoVersion {
     std::string group, stage, part, name, hash;
     std::int64_t id = 0, number = 0, late = 0;  ///< id: the number of its receipt
@@ -25,7 +25,7 @@ struct WhoExtension {
     std::optional<Instant> due;  ///< nothing: as for all
     std::string reason;
 };
-/// What somebody, and the groups of somebody, have for one assignment.
+/// The submissions and marks of a person and the person's groups for one assignment.
 struct WhoWork {
     Assignment assignment;
     std::vector<WhoVersion> versions;

@@ -118,7 +118,8 @@ class Allocator {
     /// Couples that (r, a) would make with what is there.
     int couples(int r, int a) const { return board_.any(a, r) ? 1 : 0; }
 
-    /// Two reviewers exchange their reports, when that is allowed and makes no more couples; tells whether it did.
+    /// Exchanges the reports of two reviewers, if that is allowed and adds no couples. Returns whether the exchange
+    /// happened.
     bool exchange(ReviewEdge& one, ReviewEdge& other, bool only_better) {
         const auto [r1, a1] = one;
         const auto [r2, a2] = other;

@@ -28,13 +28,14 @@ struct Allocation {
     std::vector<Message> remarks;   ///< whole sentences: what could not be had, and why
 };
 
-/// Allots reviews at random: no group its own report, none twice the same, none of a group with a common member. Active
-/// groups write, and their reports get, `reviews` each, or one more where what is fixed leaves no other way; couples
-/// who review each other are avoided where exchanges of two can. Equal problems and draws give equal results; programs
-/// pass secure_below, so that nobody can compute the pairs. Starts from a random circle (reviewer i takes the next
-/// ones), which has no such couples while 2 reviews < groups; what kin and fixed pairs forbid is repaired by augmenting
-/// paths (Berge 1957; each hands loose reviews on along a shortest chain). Throws InvalidArgument where there are too
-/// few active groups for that number of reviews and nothing is fixed or loose.
+/// Allocates reviews at random. No group gets its own report, the same report twice, or the report of a group with a
+/// common member. Each active group writes `reviews` reviews, and each of their reports gets as many, or one more if
+/// the fixed pairs leave no other way. The function avoids couples who review each other if an exchange of two reviews
+/// can. Equal problems and draws give equal results; programs pass secure_below, so that no one can compute the pairs.
+/// The algorithm starts from a random circle (reviewer i takes the next ones), which has no such couples while 2
+/// reviews < groups. Conflicts with kin and fixed pairs are repaired by augmenting paths (Berge 1957; each path passes
+/// loose reviews on along a shortest chain). Throws InvalidArgument if there are too few active groups for that number
+/// of reviews and nothing is fixed or loose.
 Allocation allocate_reviews(const AllocationProblem& problem, const UniformDraw& draw);
 
 }  // namespace dynlab::inline course

@@ -94,7 +94,7 @@ std::vector<std::string> count_missing_points(const Assignment& a, const std::ve
     return zeros;
 }
 
-/// Of members who have points of their own at the oral; what was taken off the group's mark comes off theirs, too.
+/// Marks of members with individual points at the oral. Deductions from the group's mark also apply to theirs.
 void add_student_marks(Course& course, const Assignment& a, const GivenPoints& given, std::vector<GroupMark>& marks) {
     const std::vector<bool> graded = graded_criteria(a, given);
     const auto authors = author_groups(course, a);

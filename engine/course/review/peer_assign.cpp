@@ -94,7 +94,8 @@ class ReviewAssigner {
         }
     }
 
-    /// Numbers that tell nothing of the group: drawn for each assignment and role, never given twice.
+    /// Assigns pseudonyms that reveal nothing about the group: random numbers for each assignment and role, without
+    /// repetition.
     void give_pseudonyms() {
         const auto most = static_cast<std::size_t>(std::max(99, 3 * problem_.groups));
         for (const char* role : {"author", "reviewer"}) {

@@ -48,8 +48,8 @@ class CopySender {
     }
 
   private:
-    /// Pairs may be changed while copies are made: whether there was one that had not been looked at yet. They come in
-    /// random order, so that neither the times nor the places of the files in the outbox tell whose they are.
+    /// Sends pairs that were not processed yet and returns whether there was one. Pairs may change while copies are
+    /// made. The order is random, so that neither times nor places of the files in the outbox reveal the authors.
     bool send_pairs_not_seen() {
         std::vector<ReviewPair> pairs = review_pairs(course_, assignment_);
         shuffle_items(pairs, secure_below);
@@ -153,7 +153,7 @@ class CopySender {
         }
         const std::string& author = to_reviewers() ? pair.author_name : pair.reviewer_name;
         const TemporaryFolder scratch;
-        const auto under_its_name = [&](const ValidFile& v) {  // the store's own names tell no kind
+        const auto under_its_name = [&](const ValidFile& v) {  // the store's own names have no extension
             const fs::path file = scratch.path() / fs::path(v.name).filename();
             fs::copy_file(course_.file(v.hash), file);
             return file;

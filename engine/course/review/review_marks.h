@@ -10,7 +10,7 @@
 
 namespace dynlab::inline course {
 
-/// What was given for each criterion; what nobody gave is not there.
+/// The points for each criterion; a criterion without points has no value.
 using CriterionPoints = std::vector<std::optional<double>>;
 
 /// 100 sum of points / sum of most, over what was scored.
@@ -37,7 +37,7 @@ struct ReviewMark {
     bool retaliation = false;        ///< an outlier against a group that had reviewed this reviewer's report badly
 };
 
-/// A member of a group who has points of their own at the oral.
+/// A member of a group with individual points at the oral.
 struct StudentMark {
     std::string student;             ///< id
     CriterionPoints points;          ///< the group's where the student has none
@@ -75,16 +75,16 @@ struct Marks {
     FinalMark reviews_of(const GroupMark& mark, const std::string& student = "") const;
 };
 
-/// Marks from scores. A report's mark is 100 sum of medians / sum of most. A reviewer's is the mean over the reviews of
-/// 100 max(0, 1 - 2 d), d the distance to the instructor's scores, and where there are none to the median of the
-/// others'; one whose scores nobody else's can be held against (a report with a single scored review) is not marked.
-/// The instructor counts as one reviewer among the others in medians. `groups`: to be marked.
+/// Marks from scores. A report's mark is 100 sum of medians / sum of maxima. A reviewer's mark is the mean over the
+/// reviews of 100 max(0, 1 - 2 d), where d is the distance to the instructor's scores, or to the median of the other
+/// reviewers' scores if the instructor gave none. A reviewer whose scores have no counterpart (a report with a single
+/// scored review) gets no mark. In medians the instructor counts as one more reviewer. `groups`: the groups to mark.
 Marks marks_of(const std::vector<Criterion>& criteria, const std::vector<ScoredReview>& reviews,
                const std::vector<std::int64_t>& groups);
 
-/// The same from the store, with final versions by their weight, and costs of what is late or missing at `now`. A talk
-/// has the instructor's scores only: a criterion for which anybody has points counts 0 where a group with points has
-/// none, and members may have points of their own.
+/// The same from the store, with final versions by their weight, and deductions for late or missing work at `now`. A
+/// talk has only the instructor's scores: a criterion for which any group has points counts 0 for a group with points
+/// that lacks this criterion, and members may have individual points.
 Marks course_marks(Course& course, const Assignment& assignment, Instant now = CourseClock::now());
 
 }  // namespace dynlab::inline course

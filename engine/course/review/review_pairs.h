@@ -15,12 +15,12 @@ struct ReviewPair {
     bool ended = false;                                   ///< taken back before the review was written
     bool withdrawn = false;  ///< its review was submitted and withdrawn: its scores do not count
     bool sent = false, written = false, released = false;
-    bool only_pack = false;     ///< a pack came for it, but no document that somebody could read
+    bool only_pack = false;     ///< only a pack was received, without a readable document
     std::int64_t late = 0;      ///< seconds that the least late version of its review is late
-    bool newer_report = false;  ///< sent, but another version of the report stands since, and no review is written
-    bool newer_review = false;  ///< released, but another version of the review stands since
+    bool newer_report = false;  ///< sent, but a newer version of the report exists, and no review is written
+    bool newer_review = false;  ///< released, but a newer version of the review exists
 
-    bool stopped_report = false, stopped_review = false;  ///< the newest version names somebody: no copy can be sent
+    bool stopped_report = false, stopped_review = false;  ///< the newest version names a member: no copy can be sent
     /// A review that came although the pair had been taken back: kept, without marks.
     bool voluntary() const { return ended && written; }
 
@@ -31,7 +31,7 @@ struct ReviewPair {
 /// All pairs of an assignment, ended ones too, by reviewer and author.
 std::vector<ReviewPair> review_pairs(Course& course, const Assignment& assignment);
 
-/// The id of the newest version of a pair's review, or of its pack where it has no document; 0 where none stands.
+/// The id of the newest version of a pair's review, or of its pack if it has no document; 0 if there is no version.
 std::int64_t newest_review(Course& course, std::int64_t pair);
 
 /// The pair of this reviewer whose report's pseudonym is in `name`; the only one where `name` has none. Pairs that were

@@ -30,8 +30,8 @@ struct ReadVersion {
 /// wrong with a group's files becomes a problem. Throws MissingProgram.
 ReadVersion read_version(const VersionFiles& files, Isolation level, const std::filesystem::path& program);
 
-/// Runs the analysis in `folder` and makes its record.json, report.md and, if wanted, report.pdf in `made`, an empty
-/// folder, in a box by `program`. Returns why that did not go to its end, without a full stop; empty where it did.
+/// Runs the analysis in `folder` with `program` in a sandbox and creates its record.json, report.md and, if wanted,
+/// report.pdf in `made`, an empty folder. Returns the reason for a failure, without a full stop; empty on success.
 Message make_version_in_sandbox(const std::filesystem::path& folder, const std::filesystem::path& made, bool pdf,
                                 Isolation level, const std::filesystem::path& program);
 
@@ -45,7 +45,7 @@ struct VersionJob {
     bool pdf = false;              ///< whether to make the PDF
 };
 
-/// The part of it inside the box. Writes record.json, report.md and report.pdf into `to`.
+/// The part that runs inside the sandbox. Writes record.json, report.md and report.pdf into `to`.
 SandboxOutcome make_version(const VersionJob& job);
 
 }  // namespace dynlab::inline course

@@ -23,7 +23,7 @@ Message with_place(const RecordedError& error);
 /// The message of an error, truncated if it is long.
 Message shortened_error(const Message& error_reason);
 
-/// What stands before the full stop of another sentence.
+/// The text without its full stop, for use inside another sentence.
 std::string without_full_stop(std::string text);
 
 }  // namespace dynlab::inline course

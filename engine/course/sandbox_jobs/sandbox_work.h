@@ -36,8 +36,8 @@ SandboxResult<std::string> run_bytes_in_sandbox(Sandbox& sandbox, const std::fil
 /// Limits for values that are read inside a sandbox or come from one. Texts are converted to UTF-8.
 ValueLimits sandbox_limits(std::uint64_t bytes = Sandbox::Limits{}.output_bytes);
 
-/// Runs `boxed WORK` in the sandbox with the program for this work (see program_for). The time to start the program is
-/// added to `time`. The output may have `output_bytes`.
+/// Runs the command `boxed WORK` in the sandbox with the program for this work (see program_for). The time to start the
+/// program is added to `time`. The output is limited to `output_bytes`.
 template <class Job>
 SandboxResult<typename Job::Result> run_in_sandbox(Sandbox& sandbox, const std::filesystem::path& program,
                                                    const Job& job, const TimeLimits& time,

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr auto kTimeOfDocument = std::chrono::seconds(30);
 
-/// All text that a document gets from its record and its metadata.
+/// All text that the run results and the metadata contribute to a document.
 std::string text_of(const RunRecord& record, const std::map<std::string, std::string>& metadata) {
     std::string text;
     const auto add = [&text](const std::string& more) { text += more + "\n"; };

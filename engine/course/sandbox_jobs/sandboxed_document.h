@@ -22,9 +22,10 @@ class SandboxedDocuments {
     SandboxedDocuments(Isolation isolation, std::filesystem::path program)
         : isolation_(isolation), program_(std::move(program)) {}
 
-    /// Sets report_templates/`template_name`, filled from the record's values, texts, tables and figures (drawn
-    /// already, see draw_figures), and writes `output` (.pdf or .md, with its pictures beside it). `metadata`: title
-    /// and lang ("en", "fr") in place of the template's. Throws EnvironmentError when it cannot be made.
+    /// Sets report_templates/`template_name`, filled from the values, texts, tables and figures of the run results
+    /// (drawn already, see draw_figures), and writes `output` (.pdf or .md, with its pictures in the same folder).
+    /// `metadata`: title and lang ("en", "fr"), which override the template's. Throws EnvironmentError if the document
+    /// cannot be made.
     void make(const std::string& template_name, const RunRecord& record, const std::filesystem::path& output,
               const std::map<std::string, std::string>& metadata = {}) const;
 

@@ -13,7 +13,7 @@ struct SimilarityRequest {
     std::filesystem::path submissions;  ///< a folder or a platform's zip, as ClassSubmissions takes them
     std::filesystem::path out;
     std::vector<std::filesystem::path> others;  ///< former years' submissions (folder or zip), or folders of scripts
-    double line = 0.6;                          ///< least share of a pair that is told
+    double line = 0.6;                          ///< least share of a reported pair
     Isolation isolation = Isolation::kFull;
     std::filesystem::path program;  ///< dynlab
 };

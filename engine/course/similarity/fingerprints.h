@@ -5,7 +5,7 @@
 
 namespace dynlab::inline course {
 
-/// A short run of a script's tokens: what it comes to, and the lines on which it stands.
+/// A short run of a script's tokens: its hash, and its lines.
 struct Fingerprint {
     std::uint64_t hash = 0;
     int first_line = 1, last_line = 1;

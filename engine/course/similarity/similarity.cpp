@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kMinCount = 8;       // fingerprints in common, about thirty tokens
 constexpr double kLeastEvidence = 1.5;     // their weight: as if so many stood in no third script
-constexpr double kNearlyAll = 0.95;        // a share so large is told however many have that code,
+constexpr double kNearlyAll = 0.95;        // a share so large is reported however many scripts have that code,
 constexpr std::size_t kManyInCommon = 40;  // if it is so much of it
 constexpr double kCopyOfLonger = 0.8;      // a copy has so much of the longer one's code, too
 constexpr std::size_t kGap = 3;            // fingerprints that may lie between two of one passage

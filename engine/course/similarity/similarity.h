@@ -17,8 +17,8 @@ struct CommonPassage {
     std::size_t fingerprints = 0;
 };
 
-/// Two scripts that look alike. `share`: of the shorter one's own fingerprints, rare ones counting more, that the other
-/// has, 0 to 1; `same_lines`: of its own lines that the other has letter by letter.
+/// Two similar scripts. `share`: the part of the shorter script's fingerprints that the other script has, 0 to 1; rare
+/// fingerprints count more. `same_lines`: the shorter script's lines that appear unchanged in the other script.
 struct SimilarPair {
     std::size_t a = 0, b = 0;  ///< places in the list; b is the one outside of the class, where one is
     double share = 0, same_lines = 0;
@@ -39,10 +39,10 @@ struct SimilarGroup {
 
 inline constexpr std::size_t kMaxShownGroups = 100;
 
-/// Every pair whose share is `line` or more, the largest first. What stands in `starter`, which all were given, counts
-/// for nothing; what many have counts little: a fingerprint weighs one over the number of different scripts with it.
-/// Pairs with less in common than chance explains (a handful of fingerprints, or none but common ones) are left out.
-/// Pairs of two scripts outside of the class are not looked for.
+/// Every pair whose share is `line` or more, the largest first. Code in `starter`, which all students received, does
+/// not count. Common code counts little: the weight of a fingerprint is one over the number of different scripts with
+/// it. The result omits pairs that chance explains (a handful of fingerprints, or only common ones) and pairs of two
+/// scripts outside the class.
 std::vector<SimilarPair> similar_pairs(const std::vector<ComparedScript>& scripts, const std::string& starter,
                                        double line);
 

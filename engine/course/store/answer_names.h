@@ -7,8 +7,8 @@
 
 namespace dynlab::inline course {
 
-/// The name under which the answers of a group are marked, "answer-k7m2qd". It never changes. Only the course's key
-/// gives it, so that neither the name nor the order by names tells whose answers they are.
+/// The pseudonym under which the answers of a group are marked, "answer-k7m2qd". It never changes. It follows from the
+/// course's secret key, so that neither the name nor the order of names reveals the group.
 std::string answer_name(const Course& course, const Assignment& assignment, std::int64_t group);
 
 /// The group with this answer_name; nothing for any other text.

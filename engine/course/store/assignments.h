@@ -40,13 +40,13 @@ struct Assignment {
     double weight = 1;           ///< weight of the assignment in the total of the course
     double reviews_weight = 20;  ///< percent of a report's mark that the mark of the reviews makes
     std::string checks;          ///< of a lab: folder with the instructor's own checks; may be empty
-    std::string secret;          ///< of a lab: file from which hidden records are drawn; may be empty
-    std::string keep = "best";   ///< of a lab: which of several versions counts, "best" or "newest"
+    std::string secret;  ///< of a lab: file with the secret from which hidden data sets are generated; may be empty
+    std::string keep = "best";  ///< of a lab: which of several versions counts, "best" or "newest"
 
     bool is_report() const { return kind == "report"; }
     bool is_talk() const { return kind == "talk"; }
     bool is_lab() const { return kind == "lab"; }
-    /// What stands for the work: report, slides or script.
+    /// The document of the work: report, slides or script.
     const char* document() const { return is_report() ? "report" : is_talk() ? "slides" : "script"; }
 };
 
@@ -85,8 +85,8 @@ std::vector<Criterion> usual_criteria(const std::string& kind);
 /// "late-day:10,missing-review:25"; empty for none. Throws InvalidArgument.
 Costs costs_of(const std::string& text);
 
-// Exceptions for one group, such as an extended deadline. The functions of corrections/corrections.h record each
-// exception with a reason; the newest one is valid.
+// Exceptions for one group, such as an extended deadline. The functions of corrections/corrections.h log each exception
+// with a reason; the newest one is valid.
 
 /// Throws InvalidArgument for an empty reason.
 void refuse_without_reason(const std::string& reason);

@@ -10,7 +10,7 @@ inline constexpr char kPublicKeyFile[] = "course.pub";
 /// The public key as a file: the course's name, and the key behind "ed25519: ".
 std::string public_key_text(const std::string& course, const std::string& public_key);
 
-/// A course's name and public key as such a file tells them.
+/// A course's name and public key, as a key file contains them.
 struct PublicKey {
     std::string course, digits;
 };

@@ -60,7 +60,7 @@ CREATE TABLE journal (id INTEGER PRIMARY KEY, at INTEGER NOT NULL, what TEXT NOT
 CREATE TABLE former_names (student TEXT NOT NULL REFERENCES students, name TEXT NOT NULL, mail TEXT NOT NULL,
   until INTEGER NOT NULL, PRIMARY KEY (student, name, mail)) WITHOUT ROWID;
 )",
-    // Corrections are rows of their own, the newest of which holds; what was received stays as it was signed.
+    // Each amendment is a separate row, and the newest row is valid; the received version stays as it was signed.
     R"(
 CREATE TABLE arrivals (id INTEGER PRIMARY KEY, version INTEGER NOT NULL REFERENCES versions,
   received_at INTEGER NOT NULL, due_at INTEGER NOT NULL, late INTEGER NOT NULL CHECK (late >= 0),
@@ -167,9 +167,9 @@ CREATE TABLE refusals (id INTEGER PRIMARY KEY, assignment INTEGER NOT NULL REFER
   reason TEXT NOT NULL, received_at INTEGER NOT NULL);
 )",
     // One store of marks: of a check, of a criterion, or of the whole submission (item *), by the instructor or, with a
-    // pair, by a reviewer; null points take back. Items of reports and talks are, besides their criteria, `reviews` and
-    // `comment`, which has a text only. A file that was not taken, or whose sender is not known, is a version of the
-    // part `unreadable`: no file comes without a trace.
+    // pair, by a reviewer; null points withdraw a mark. Reports and talks have the additional items `reviews` and
+    // `comment`, which has only a text. A file that was not accepted, or whose sender is unknown, is a version of the
+    // part `unreadable`: every file leaves a trace.
     R"(
 CREATE TABLE new_marks (id INTEGER PRIMARY KEY, assignment INTEGER NOT NULL REFERENCES assignments,
   group_id INTEGER NOT NULL REFERENCES groups, student TEXT REFERENCES students,
@@ -297,7 +297,7 @@ bool migrate_course(Database& database, Database::Opening opening, const std::st
     const std::int64_t before = version_of();
     if (before == newest) return false;
     if (opening == Database::Opening::kNew) database.execute("PRAGMA journal_mode = WAL");
-    // A table that others refer to can only be made again while nobody asks for what they refer to.
+    // A table that others reference can only be rebuilt while foreign keys are not enforced.
     database.execute("PRAGMA foreign_keys = OFF");
     Transaction transaction(database);
     database.execute("DROP VIEW IF EXISTS standing; DROP VIEW IF EXISTS arrived");

@@ -76,7 +76,7 @@ std::string read_key(const fs::path& file) {
     return key;
 }
 
-/// The same secret made codes before, so that signing has a key of its own.
+/// Older versions used the same secret for codes, so signing uses a separate derived key.
 SigningKey signing_key_of(const std::string& secret) {
     return SigningKey::derived(secret, "dynlab receipts");
 }

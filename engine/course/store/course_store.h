@@ -19,10 +19,10 @@ struct StoredFile {
     std::int64_t bytes = 0;
 };
 
-/// A course on disk: course.db, the handed-in files under their hashes below files/, the secret course.key, which signs
-/// receipts and seals, and course.pub, by which anybody verifies them. Only their owner can read them. Nothing is
-/// ever deleted. A file is on disk before the transaction that speaks of it commits, so that a crash leaves at worst a
-/// file that nobody speaks of. Every transaction seals what it leaves (store_seal.h).
+/// A course on disk: course.db, the submitted files under their hashes in files/, the secret course.key, which signs
+/// receipts and seals, and course.pub, with which anyone can verify them. Only the owner can read these files. Nothing
+/// is ever deleted. A file is on disk before the transaction that refers to it commits, so that a crash leaves at worst
+/// an unreferenced file. Every transaction seals its result (store_seal.h).
 class Course {
   public:
     /// Makes a course in `folder`, which may exist. Finishes what an interrupted one began. Throws EnvironmentError
@@ -61,7 +61,7 @@ class Course {
     /// Within a transaction: the store speaks of this content from now on.
     void record_file(const std::string& hash, std::int64_t bytes, Instant at);
     std::filesystem::path file(const std::string& hash) const;
-    /// A setting of a command, by a name of its own; empty where it was never set. It is set within a transaction.
+    /// A named setting of a command; empty if it was never set. Setting it requires a transaction.
     std::string saved_entry(const std::string& key);
     void save_entry(const std::string& key, const std::string& value);
     /// Within a transaction: a line in the journal.

@@ -15,7 +15,7 @@ namespace {
 constexpr int kMillisecondsToWait = 5000;
 constexpr std::size_t kMostIdle = 64;
 
-/// What SQLite's code means to whoever works with a course; its own words for the others.
+/// An explanation of SQLite's code for the users of a course; SQLite's own message for other codes.
 std::string reason_of(int code, const char* words) {
     switch (code & 0xFF) {
         case SQLITE_BUSY:
@@ -56,8 +56,8 @@ auto with_plain_errors(const SQLite::Database& database, const Work& work) {
     }
 }
 
-/// Where nobody can write, as in an archived course, SQLite cannot keep the log beside the file, and needs none. A log
-/// that lies there is of an interrupted run and belongs to the data: then SQLite decides.
+/// If no one can write, as in an archived course, SQLite cannot create its log next to the file and does not need one.
+/// An existing log is left from an interrupted run and belongs to the data: then SQLite decides.
 bool cannot_change(const std::filesystem::path& file) {
     if (::access(file.c_str(), F_OK) != 0 || ::access(file.c_str(), W_OK) == 0) return false;
     std::error_code no_log;

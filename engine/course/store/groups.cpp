@@ -37,7 +37,7 @@ bool same_name(const std::string& a, const std::string& b) {
     return words == others;
 }
 
-/// Names that Windows has for devices, or that stand beside the groups' folders where files are delivered.
+/// Names of Windows devices, and names of files next to the groups' folders in a delivery.
 bool is_reserved(const std::string& name) {
     static const std::set<std::string> reserved = {"con", "prn", "aux", "nul", "mail.csv", "moodle.zip"};
     const std::string small = in_small_letters(name), stem = small.substr(0, small.find('.'));

@@ -41,11 +41,12 @@ struct RosterChange {
     Message short_ids;                         ///< a sentence about ids that are too short to search for
     bool converted = false;                    ///< see TextTable
 };
-/// Reads a roster (columns id and group, and optionally name, email or mail, moodle, canvas) into the course, whole or
-/// not at all. What has no column stays as it was; names and addresses that change stay known. A student without a
-/// group is a group alone; one in several has them joined by "|". Who is in another group than before leaves that one;
-/// both stay known, so that nobody reviews work of their own. With `no_groups` the column group may miss: who is new is
-/// a group alone then. Throws EnvironmentError where it misses otherwise.
+/// Imports a roster (columns id and group, and optionally name, email or mail, moodle, canvas) into the course,
+/// completely or not at all. Fields without a column stay unchanged; former names and addresses stay known. A student
+/// without a group forms a group alone; a student in several groups has them joined by "|". A student with a new group
+/// leaves the former one; both stay known, so that no student reviews work of a former group. With `no_groups` the
+/// column group may be missing: a new student then forms a group alone. Otherwise a missing column throws
+/// EnvironmentError.
 RosterChange import_roster(Course& course, const std::filesystem::path& file, bool no_groups = false);
 
 /// The group has dropped out, or is back. Its work stays. Throws InvalidArgument where that was so before.

@@ -86,7 +86,7 @@ void IncomingFiles::add_file(const fs::path& file, const std::string& source) {
     }
 }
 
-/// What has no content of its own.
+/// Leaves out an entry without content.
 void IncomingFiles::leave_out(const std::string& name, const std::string& source, const Submission& sender,
                               const Message& reason) {
     const fs::path nothing = scratch_.path() / "nothing";
@@ -94,7 +94,7 @@ void IncomingFiles::leave_out(const std::string& name, const std::string& source
     files_.push_back({nothing, name, source, sender, {}, given_ - 1, reason});
 }
 
-/// A file of a folder: links could lead to files that nobody handed in.
+/// Adds a file of a folder. Links are refused, because they could lead to files that were not submitted.
 void IncomingFiles::add_found(const fs::path& file, const std::string& source) {
     const fs::file_type type = fs::symlink_status(file).type();
     if (type == fs::file_type::regular)
@@ -156,7 +156,7 @@ void IncomingFiles::add_folder_of(const Submission& sender, const fs::path& fold
                                   const std::string& own) {
     for (const fs::path& entry : entries_of_one_person(folder)) {
         const std::string shown_source = source + "/" + entry.filename().string();
-        if (entry.filename() == "data") continue;  // the course's records, or a link to them
+        if (entry.filename() == "data") continue;  // the course's data sets, or a link to them
         if (names_the_folder_itself(entry)) {
             if (entry.filename() == kFiguresOfRuns) continue;
             add_folder_of(sender, entry, shown_source, own);

@@ -14,7 +14,7 @@ struct IncomingFile {
     std::filesystem::path file;  ///< where it can be read
     std::string name;            ///< its own name
     std::string source;          ///< for messages: the file that was given, and the place in it
-    Submission sender;           ///< name, person and lms_id as the folder's or the file's name tells them
+    Submission sender;           ///< name, person and lms_id from the name of the folder or file
     std::string folder = {};     ///< source of the sender's own folder; empty for a file alone
     std::size_t given = 0;       ///< as how manieth it, or what it lay in, was given
     Message left_out = {};       ///< why it cannot be taken, a clause; what holds nothing is an empty file then

@@ -9,7 +9,7 @@ namespace dynlab::inline course {
 
 struct Inspection {
     int rules_broken = 0;
-    bool names = false;        ///< somebody of the course is named
+    bool names = false;        ///< the document names a member of the course
     std::string error_reason;  ///< id of the finding that keeps the file from being read: damaged, ...; else empty
     Message reason;            ///< the same in a sentence
     std::string json;          ///< issues_as_json; empty when nothing was looked at

@@ -8,14 +8,14 @@
 
 namespace dynlab::inline course {
 
-/// Items of marks besides checks and criteria: the whole submission (of a report or a talk in percent), and what the
-/// group's reviews are worth, in percent.
+/// Items of marks other than checks and criteria: the whole submission (of a report or a talk in percent), and the
+/// group's reviews, in percent.
 inline constexpr char kWholeItem[] = "*", kReviewsItem[] = "reviews";
 
 /// An item as it is typed: of a report or a talk, `work` is the whole submission.
 std::string item_called(const Assignment& assignment, const std::string& name);
 
-/// Points that somebody gave: the instructor, or a reviewer.
+/// Points given by the instructor or a reviewer.
 struct GivenMark {
     std::int64_t group = 0;        ///< whose work it is
     std::string student;           ///< id of the only member who gets them; empty: all of the group
@@ -56,8 +56,8 @@ struct MarkEntry {
 /// By group.
 std::map<std::int64_t, MarkEntry> newest_entries(Course& course, const Assignment& assignment, const std::string& item);
 
-/// Within a transaction: throws InvalidArgument where the newest entry is another one than `seen` (0: none), so that a
-/// mark that somebody has not seen is not replaced. `who`: the group as the user called it.
+/// Within a transaction: throws InvalidArgument if the newest entry is not `seen` (0: none), so that a mark that the
+/// user has not seen is not replaced. `who`: the group as the user named it.
 void refuse_unseen_entry(Course& course, const Assignment& assignment, std::int64_t group, const std::string& who,
                          const std::string& item, std::int64_t seen);
 

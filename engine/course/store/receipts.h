@@ -10,7 +10,7 @@
 
 namespace dynlab::inline course {
 
-/// What a group gets for a file it handed in: the lines that are signed.
+/// A group's receipt for a submitted file: the signed lines.
 struct Receipt {
     std::string course, assignment, group, stage, part, name, hash;
     std::int64_t version = 0, bytes = 0, late = 0;

@@ -12,10 +12,10 @@ struct StoreCheck {
     std::vector<Message> leftovers;   ///< sentences: temporary files and folders of killed runs
 };
 
-/// Whether the database is whole, every file it speaks of is there and has its hash, every version's signature, and
-/// that of every correction, is that of its receipt, every receipt in receipts/ is one that the store would write, and
-/// the tables are as their seals say: versions taken away, pairs, marks and sendings changed by something else are
-/// told.
+/// Checks the integrity of the store: the database is intact; every referenced file exists and has its hash; the
+/// signatures of versions and amendments match their receipts; every receipt in receipts/ is one that the store would
+/// write; and the tables match their seals. Versions that were removed and pairs, marks and sendings that another
+/// program changed are reported.
 StoreCheck check_store(Course& course);
 
 }  // namespace dynlab::inline course

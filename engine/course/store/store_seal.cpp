@@ -72,7 +72,7 @@ void add_states(const std::string& contents, TableStates& states) {
             states[line.substr(0, colon)] = line.substr(colon + 2);
 }
 
-/// As all seals together tell them.
+/// The state of the tables according to all seals together.
 TableStates states_sealed(const std::vector<Seal>& seals) {
     TableStates states;
     for (const Seal& seal : seals) add_states(seal.contents, states);

@@ -9,10 +9,10 @@
 
 namespace dynlab::inline course {
 
-/// Seals are a chain over all changes of a course: each tells the number of rows and the SHA-256 of every table that
-/// changed since the one before, and is signed together with that one's signature. So a row that was taken away or
-/// altered behind dynlab's back does not fit the newest seal, and a seal that was taken away breaks the chain. (Who
-/// puts back an old store with its seals is betrayed by later receipts only.)
+/// Seals form a chain over all changes of a course. Each seal contains the number of rows and the SHA-256 of every
+/// table that changed since the previous seal, and is signed together with the previous signature. A row that another
+/// program removed or altered therefore does not match the newest seal, and a removed seal breaks the chain. (Only
+/// later receipts reveal that an old store was restored together with its seals.)
 
 /// Within a transaction: seals what the tables hold now; nothing where that is what the newest seal says.
 void seal_store(Database& database, const SigningKey& key, Instant at);

@@ -6,9 +6,9 @@
 
 namespace dynlab::inline data_io {
 
-/// Walks through the cells of a separated text: records of one line each, except that a cell in quotes may hold
-/// separators, line ends and doubled quotes (RFC 4180). Blank lines and lines that begin with # or % are passed over.
-/// The separator ' ' stands for any number of blanks and tabs, at the ends of a line too.
+/// Scans the cells of a separated text: one row per line, except that a cell in quotes may contain separators, line
+/// ends and doubled quotes (RFC 4180). Blank lines and lines that begin with # or % are skipped. The separator ' '
+/// means any number of blanks and tabs, at the ends of a line too.
 class CellScanner {
   public:
     /// From the byte `at` of `text`, where line number `line` begins; both texts must live as long as this.
@@ -16,12 +16,12 @@ class CellScanner {
                 std::size_t line)
         : file_(file), text_(text), separator_(separator), at_(at), line_(line) {}
 
-    /// Goes to the next record; false at the end of the text. Call it when the record at hand has ended.
+    /// Goes to the next row; false at the end of the text. Call it when the current row has ended.
     bool next_record();
     /// Its next cell, without blanks around it; valid until the next call. There is at least one.
     std::string_view next_cell();
     bool record_ended() const { return record_ended_; }              ///< after its last cell
-    std::size_t line() const { return record_line_; }                ///< on which the record at hand begins
+    std::size_t line() const { return record_line_; }                ///< on which the current row begins
     std::size_t place() const { return record_at_; }                 ///< byte at which it begins
     std::string_view last_comment() const { return last_comment_; }  ///< without its sign; empty when there was none
 

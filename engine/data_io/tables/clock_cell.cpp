@@ -76,8 +76,8 @@ class ClockText {
     std::string_view text_;
 };
 
-/// 1 to 12; 0 for no month. The first three letters tell English, French and German months apart, but for June and
-/// July in French.
+/// 1 to 12; 0 for no month. The first three letters identify English, French and German months, except June and July in
+/// French.
 int month_of(const std::string& word) {
     constexpr std::string_view kMonths =
         "jan1 feb2 fev2 mar3 apr4 avr4 may5 mai5 jun6 jul7 aug8 sep9 oct10 okt10 nov11 dec12 dez12 ";

@@ -26,7 +26,7 @@ struct ColumnFormat {
     std::string example = {};       ///< a cell that is written so
 };
 
-/// One for each column of `rows`, between whose cells stands `separator`.
+/// One format for each column of `rows`, whose cells are separated by `separator`.
 std::vector<ColumnFormat> formats_of(std::span<const std::vector<std::string>* const> rows, std::size_t columns,
                                      char separator);
 
@@ -42,7 +42,7 @@ NumberStatus read_cell(const ColumnFormat& format, std::string_view cell, double
 /// Whether a cell is no plain number, but a number with thousands or a unit, a time or a day.
 bool is_number_in_disguise(std::string_view cell);
 
-/// Where a cell stands, for messages.
+/// The place of a cell, for messages.
 struct CellPlace {
     const std::filesystem::path& file;
     std::size_t line;

@@ -26,7 +26,7 @@ class Lines {
         for (std::size_t i = at_ + from; i < at_ + from + count; ++i)
             if (text_[i] != '\r') text_[i] = ' ';
     }
-    /// In the place of as many characters.
+    /// Overwrites as many characters.
     void write(std::size_t from, std::string_view words) { text_.replace(at_ + from, words.size(), words); }
 
     std::vector<std::string_view> cells(char separator) const {
@@ -53,7 +53,7 @@ std::optional<double> number_of(std::string_view cell) {
     return parse_number(cell, number) == NumberStatus::kNumber ? std::optional(number) : std::nullopt;
 }
 
-/// LabVIEW: two headers, the names with a Comment that no row has, then the rows; more headers begin more records.
+/// LabVIEW: two headers, the names with a Comment that no row has, then the rows; more headers begin more data sets.
 void take_labview(const std::filesystem::path& file, std::string& text, InstrumentFacts& facts) {
     Lines lines(text);
     const bool commas = text.substr(0, text.find(kEndOfHeader)).find("Separator\tComma") != std::string::npos ||
@@ -114,8 +114,8 @@ bool take_tektronix(std::string& text, InstrumentFacts& facts) {
     return true;
 }
 
-/// Rigol: the names, with Start and Increment behind them, whose numbers stand in the line of units; or
-/// "t0 = -0.005, tInc = 4e-06" behind the names.
+/// Rigol: the names, followed by Start and Increment, whose numbers are in the line of units; or "t0 = -0.005, tInc =
+/// 4e-06" after the names.
 void take_rigol(std::string& text, InstrumentFacts& facts) {
     Lines lines(text);
     const auto names = lines.cells(',');
@@ -149,7 +149,7 @@ void take_rigol(std::string& text, InstrumentFacts& facts) {
     }
 }
 
-/// Arduino's serial monitor: "10:12:05.500 -> " before each line, which becomes a cell of its own.
+/// Arduino's serial monitor: "10:12:05.500 -> " before each line, which becomes a separate cell.
 void take_serial_monitor(std::string& text) {
     constexpr std::string_view kArrow = " -> ";
     Lines lines(text);

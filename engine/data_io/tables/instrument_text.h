@@ -17,10 +17,10 @@ struct InstrumentFacts {
     std::optional<double> Ts = {};                  ///< s
 };
 
-/// Finds the exports of LabVIEW (.lvm), Tektronix and Rigol oscilloscopes and Arduino's serial monitor, blanks in
-/// `text` what does not belong to the table, and returns what it said. The text keeps its length and its lines. Exports
-/// of others are tables with lines above them. Throws EnvironmentError with the line for a LabVIEW file of several
-/// records.
+/// Recognizes exports of LabVIEW (.lvm), Tektronix and Rigol oscilloscopes and Arduino's serial monitor, overwrites
+/// text in `text` outside the table with blanks, and returns its information. The text keeps its length and its lines.
+/// Exports of other instruments are tables with lines above them. Throws EnvironmentError with the line for a LabVIEW
+/// file of several data sets.
 InstrumentFacts take_instrument_text(const std::filesystem::path& file, std::string& text);
 
 }  // namespace dynlab::inline data_io

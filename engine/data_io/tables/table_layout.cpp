@@ -35,8 +35,8 @@ struct TableRecord {
 struct TableSample {
     char separator;
     std::vector<TableRecord> records;
-    std::string last_comment;  ///< before the first record
-    std::size_t cells = 0;     ///< of most records in the last half
+    std::string last_comment;  ///< before the first row
+    std::size_t cells = 0;     ///< of most rows in the last half
 
     /// What speaks for this separator, 1 at most.
     double score = 0;
@@ -77,12 +77,12 @@ std::optional<TableSample> sample_of(const std::filesystem::path& file, std::str
     return std::nullopt;
 }
 
-/// The records that are believed to be rows.
+/// The part of the text that is assumed to contain the table's rows.
 std::span<const TableRecord> last_half(const TableSample& sample) {
     return std::span(sample.records).subspan(sample.records.size() / 2);
 }
 
-/// Of most records; those of the last half count twice.
+/// The size of most rows; those of the last half count twice.
 std::size_t most_frequent_size(const TableSample& sample) {
     std::map<std::size_t, int> times;
     for (const TableRecord& record : sample.records) ++times[record.cells.size()];
@@ -166,7 +166,7 @@ class LayoutFinder {
         return rows.size() > 1;
     }
 
-    /// Whether a record has a name for each column, and perhaps for empty ones behind them.
+    /// Whether a line has a name for each column, and perhaps for empty columns after them.
     bool names_columns(const TableRecord& record) {
         const std::size_t size = record.cells.size(), filled = record.filled();
         if (size == sample_.cells || (filled >= columns_ && filled <= sample_.cells)) return true;
@@ -185,7 +185,7 @@ class LayoutFinder {
         first_row_ = static_cast<std::size_t>(
             std::ranges::find_if(records_, [this](const TableRecord& record) { return is_row(record); }) -
             records_.begin());
-        std::vector<std::size_t> wordy;  // records above that may hold names or units
+        std::vector<std::size_t> wordy;  // lines above that may contain names or units
         for (std::size_t i = 0; i < first_row_; ++i)
             if (!holds_number(records_[i]) && holds_text(records_[i]) && names_columns(records_[i])) wordy.push_back(i);
         if (wordy.empty()) {
@@ -274,7 +274,7 @@ double score_of(const std::filesystem::path& file, const TableSample& sample) {
     return LayoutFinder(file, sample, false).is_complete() ? good : good * kWithoutNames;
 }
 
-/// Throws what is wrong with the quotation marks or the length of a row, or that there is no record.
+/// Throws the error in the quotation marks or the length of a row, or the error that there is no row.
 [[noreturn]] void walk_through(const std::filesystem::path& file, std::string_view text, std::size_t at,
                                std::size_t line, char separator) {
     CellScanner scanner(file, text, separator, at, line);

@@ -16,7 +16,7 @@ struct TableLayout {
     std::vector<std::string> units;     ///< of the row below the names, one a column; none when there is no such row
     std::vector<ColumnFormat> formats;  ///< of the columns; rows may have more cells, which are empty
     bool numbered_rows = false;         ///< the first column holds the rows' numbers and has no name
-    bool named_by_comment = false;      ///< the names stand in a comment right above the rows
+    bool named_by_comment = false;      ///< a comment directly above the rows contains the names
     std::size_t rows_at = 0, rows_line = 1;       ///< where the rows begin: byte and line
     std::size_t table_line = 1;                   ///< of the names, or of the first row without such a line
     std::size_t passed_over = 0, units_line = 0;  ///< lines above the table; line of the row of units

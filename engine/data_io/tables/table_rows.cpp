@@ -13,7 +13,7 @@ namespace {
 /// Numbers are read into the vector that is given back; a text is moved into its variable, one beside the other.
 constexpr std::size_t kBytesOfNumber = sizeof(double), kBytesOfText = sizeof(std::string) + sizeof(Variable);
 
-/// What a string takes besides itself.
+/// The memory of a string outside the object itself.
 std::size_t bytes_besides(std::string_view text) {
     constexpr std::size_t kShort = 15, kBlock = 16;
     return text.size() > kShort ? text.size() + kBlock : 0;
@@ -81,7 +81,7 @@ class RowReader {
             file_.string(), scanner.line(), megabytes.most, megabytes.of_file);
     }
 
-    /// False where the table ends, of which the `first` cell that is not empty may tell.
+    /// False at the end of the table, which the `first` cell that is not empty may show.
     bool take_cell(std::size_t j, std::string_view cell, bool first, const CellScanner& scanner) {
         TableColumn& column = columns_[j];
         const ColumnFormat& format = layout_.formats[j];
@@ -110,7 +110,8 @@ class RowReader {
         return true;
     }
 
-    /// Whether no row follows the record at hand, which is none: then it and what follows it stand below the table.
+    /// Whether no row follows the current line, which is not a row: then this line and the following ones are text
+    /// below the table.
     bool ends_before(const CellScanner& at) {
         constexpr std::size_t kMaxLineCount = 200;
         CellScanner scanner(file_, text_, layout_.separator, at.place(), at.line());

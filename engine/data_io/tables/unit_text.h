@@ -5,7 +5,7 @@
 namespace dynlab::inline data_io {
 
 /// Whether a text is a unit of measurement: products, quotients and powers of SI symbols with their prefixes and of
-/// others that records use (deg C, rpm, bar, %, ...), or such a unit's English name.
+/// other common symbols (deg C, rpm, bar, %, ...), or such a unit's English name.
 bool is_unit(std::string_view text);
 
 /// Without a pair of brackets around it.

@@ -123,7 +123,7 @@ void CborWriter::array(const NumberArray& value) {
     }
     append_head(bytes_, cbor_encode_tag, kNumbersTag);
     append_head(bytes_, cbor_encode_bytestring_start, value.bytes());
-    constexpr std::size_t kWhatFollows = 4096;  // for which the text need not double behind a long record
+    constexpr std::size_t kWhatFollows = 4096;  // space so that the text need not double after long data
     bytes_.reserve(bytes_.size() + value.bytes() + kWhatFollows);
     if (value.bytes() > 0) bytes_.append(static_cast<const char*>(value.numbers), value.bytes());
 }

@@ -6,8 +6,8 @@
 
 namespace dynlab::inline data_io {
 
-/// What a command of dynlab says to its user. A program that runs one for a reader of its own names a file in the
-/// command's environment, in which it finds the messages, and makes their text itself.
+/// The messages of a dynlab command to its user. A program that runs a command for a separate reader names a file in
+/// the command's environment. It finds the messages in that file, and makes their text itself.
 struct CommandMessages {
     std::vector<Message> results;            ///< on standard output
     std::vector<Message> complaints, notes;  ///< on standard error

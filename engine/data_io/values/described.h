@@ -17,12 +17,12 @@
 
 namespace dynlab::inline data_io {
 
-/// A class that is stored or sent is described once, in its namespace or a later layer's, by the names of its members
-/// in their order, under which they are stored:
+/// Describes a class that is stored or sent. The description is made once, in the class's namespace or a later layer's,
+/// and lists the members in their order. Members are stored under their names:
 ///
 ///     DYNLAB_DESCRIBE(Level, value, from, to)
 ///
-/// which stands for
+/// expands to
 ///
 ///     template <Is<Level> T, class V>
 ///     void describe(T& object, V& member) {
@@ -30,12 +30,12 @@ namespace dynlab::inline data_io {
 ///         member("value", value), member("from", from), member("to", to);
 ///     }
 ///
-/// and is written out where a member has a name of its own or is stored in one of the ways below. A structured binding
-/// must name all members, so that one that is added to the class and not here does not compile. `member.kept(...)` is
-/// for programs only (CBOR): JSON, which people read, leaves it out. `member.unless_empty(...)` is left out where it is
-/// empty, an optional one where it has no value; `member.null_if_empty(...)` is null there, for texts and numbers (0)
-/// of files in which every member always stands. After reading, `check_value(object, limits)`, where there is one,
-/// throws std::exception for what does not fit together.
+/// Write out this function if a stored name differs from the member's name, or for one of the variants below. A
+/// structured binding must name all members, so that a member that is added only to the class does not compile.
+/// `member.kept(...)` is for programs only (CBOR): JSON, which people read, leaves it out. `member.unless_empty(...)`
+/// is left out if it is empty, or for an optional member without a value. `member.null_if_empty(...)` writes null then,
+/// for texts and numbers (0) of files in which every member is always present. After reading, `check_value(object,
+/// limits)`, if it exists, throws std::exception for inconsistent members.
 template <class T, class Class>
 concept Is = std::same_as<std::remove_const_t<T>, Class>;
 
@@ -94,8 +94,8 @@ template <class T>
 concept List = !std::same_as<T, std::string> && !Map<T> && requires(T & value) {
     value.emplace_back();
 };
-/// Written and read by functions of its own, write_whole_value and read_whole_value; those of vectors and matrices are
-/// in array_descriptions.h.
+/// Written and read by specific functions, write_whole_value and read_whole_value; those of vectors and matrices are in
+/// array_descriptions.h.
 template <class T>
 concept Custom = requires(ValueWriter& writer, const T& value) {
     write_whole_value(writer, value);

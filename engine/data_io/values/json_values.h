@@ -47,7 +47,7 @@ class JsonWriter final : public ValueWriter {
 /// A text with U+FFFD for what is not UTF-8.
 std::string in_utf8(std::string_view text);
 
-/// JSON text from anybody as it stands in memory, within the limits; throws ValueError.
+/// JSON text from an untrusted source as a value in memory, within the limits; throws ValueError.
 nlohmann::json parsed_json(std::string_view text, const ValueLimits& limits = {});
 
 /// Reads what JsonWriter made; members in any order, others are passed over.

@@ -51,9 +51,9 @@ class ValueWriter {
     virtual void end_object() = 0;
 };
 
-/// Gives a value piece by piece to a caller that knows what it should be. Every function throws ValueError where
-/// something else stands, or a limit is passed; the message begins with its location. Members of an object come in the
-/// order they were written.
+/// Gives a value piece by piece to a caller that knows its expected type. Every function throws ValueError if the input
+/// has another type, or passes a limit; the message begins with its location. Members of an object come in the order in
+/// which they were written.
 class ValueReader {
   public:
     explicit ValueReader(const ValueLimits& limits) : limits_(limits), memory_left_(limits.memory) {}
@@ -62,14 +62,14 @@ class ValueReader {
     virtual bool keeps_all() const = 0;
 
     enum class Kind { kNothing, kTruth, kWhole, kNumber, kText, kArray, kList, kMap, kObject, kOther };
-    virtual Kind next() = 0;  ///< what stands here; nothing is taken
+    virtual Kind next() = 0;  ///< the kind at this place; nothing is consumed
 
     virtual void nothing() = 0;
     virtual bool truth() = 0;
     virtual std::int64_t whole(std::int64_t low, std::int64_t high) = 0;  ///< at least, at most
     virtual double number() = 0;
     std::string text();
-    std::string json_text();  ///< what ValueWriter::json_text() wrote; of JSON, the value that stands here
+    std::string json_text();  ///< what ValueWriter::json_text() wrote; of JSON, the value at this place
     std::size_t one_of(std::span<const char* const> names);  ///< the index of the text among them
     /// Numbers of this form, or of any; they are there until the next call.
     NumberArray array(std::optional<ArrayForm> requested);

@@ -27,7 +27,7 @@ const std::string kPicturePrefix = "dynlab-picture-";
 const std::string kChunkBegins = "<div id=\"chunk-";
 using Labels = std::map<std::string, std::string>;
 
-/// What of the record a text shows: the entries whose names occur in it.
+/// Adds the run results that a text shows: the entries whose names occur in it.
 void add_entries(const RunRecord& record, const std::string& markdown, DigestStream& digest) {
     const auto shows = [&](const std::string& name) { return markdown.find(name) != std::string::npos; };
     for (const auto& [name, value] : record.values)
@@ -45,7 +45,7 @@ void add_entries(const RunRecord& record, const std::string& markdown, DigestStr
     }
 }
 
-/// Whether the chunk has a slot that the record does not fill.
+/// Whether the chunk has a slot that the run results do not fill.
 bool lacks_entry(const RunRecord& record, const std::string& markdown) {
     static const RE2 kSlot(R"(`([\w-]+)`\{\.value\}|\(figure:([\w-]+)\)|\{\.(?:table|text) [^}]*name=([\w-]+))",
                            RE2::Latin1);
@@ -59,7 +59,7 @@ bool lacks_entry(const RunRecord& record, const std::string& markdown) {
     return false;
 }
 
-/// Whether it says what stands at the end of the page: notes, and literature.
+/// Whether the text adds something at the end of the page: notes or literature.
 bool has_notes(const std::string& markdown) {
     static const RE2 kReference("@([A-Za-z_]+:?)", RE2::Latin1);
     static const std::set<std::string> kOfLabels = {"fig:", "tbl:", "eq:", "sec:"};
@@ -107,7 +107,7 @@ struct ChunkSetter::Memory {
     TemporaryFolder folder;
     std::optional<ChildProcess> warm;
     std::string warm_bibliography;
-    std::string whole;  ///< what all chunks depend on: metadata, rules, whether the record is whole
+    std::string whole;  ///< what all chunks depend on: metadata, rules, whether the run has ended
     std::vector<KnownChunk> chunks;
     std::string head, notes;
     bool complained = false;
@@ -155,7 +155,7 @@ class ChunkJob {
         return result();
     }
 
-    /// A Pandoc for the next time: it begins while nobody waits.
+    /// Starts the next Pandoc early, while no request waits.
     void warm_up() const {
         memory_.warm.emplace(start_pandoc(job({})));
         memory_.warm_bibliography = bibliography_;
@@ -277,7 +277,7 @@ class ChunkJob {
         std::string body = between(page.text, "<main>\n", "</main>").value_or("");
         if (whole_document_) {
             memory_.head = between(page.text, "<body>\n", "<main>").value_or("");
-            // Behind the last chunk: notes, and literature that has no place of its own.
+            // After the last chunk: notes, and literature without a place in the text.
             const std::size_t last = body.rfind(kChunkBegins);
             memory_.notes = last == std::string::npos ? body : body.substr(end_of_division(body, last));
             if (is_blank(memory_.notes)) memory_.notes.clear();

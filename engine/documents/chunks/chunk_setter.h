@@ -9,7 +9,7 @@
 
 namespace dynlab::inline documents {
 
-/// A picture on a page: what stands for it in the HTML, and the figure of the run or the file that it is.
+/// A picture on a page: its name in the HTML, and the figure of the run or the file that it shows.
 struct SetPicture {
     std::string written_name;
     bool is_figure = false;
@@ -40,8 +40,8 @@ class ChunkSetter {
     /// What points to nothing is shown as a bold ?? where the documents are `drafts`, and is no complaint.
     explicit ChunkSetter(bool drafts = false);
     ~ChunkSetter();
-    /// Slots that the record does not fill say so where the record is `unfinished`. Throws DocumentError where Pandoc
-    /// gives nothing and for what prepared_text refuses, MissingProgram for pandoc.
+    /// If the run is `unfinished`, slots without an entry say so. Throws DocumentError if Pandoc returns nothing and
+    /// for text that prepared_text refuses, MissingProgram for pandoc.
     SetDocument set(const DocumentSource& source, bool unfinished);
     std::size_t chunks_set() const { return chunks_set_; }  ///< by the last call
 

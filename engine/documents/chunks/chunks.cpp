@@ -48,7 +48,7 @@ class OpenBlocks {
     bool in_comment_ = false, in_table_ = false, after_rule_ = false, after_empty_line_ = true;
 };
 
-/// Whether a line that follows an empty one belongs to what stands before it.
+/// Whether a line that follows an empty one belongs to the block before it.
 bool goes_on(const std::string& line) {
     static const RE2 kGoesOn(R"(^(\s|[-*+] |\(?[0-9A-Za-z]{1,4}[.)] |\(@|:\s|~\s|[Tt]able:))", RE2::Latin1);
     return RE2::PartialMatch(line, kGoesOn);

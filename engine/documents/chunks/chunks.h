@@ -6,7 +6,7 @@
 
 namespace dynlab::inline documents {
 
-/// A piece of a document that can be set by itself: paragraphs, a whole list, table, block or formula.
+/// A piece of a document that can be set separately: paragraphs, a whole list, table, block or formula.
 struct Chunk {
     std::string markdown;
     Place origin;                       ///< of its first line

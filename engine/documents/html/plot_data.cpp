@@ -102,7 +102,7 @@ json dash_lengths(const std::string& pattern) {
     return pattern == "solid" ? json::array() : json::parse(replaced(replaced(pattern, "(", "["), ")", "]"));
 }
 
-/// One figure on its way: what stands nowhere else is cm on the page.
+/// Writes one figure. Quantities without another unit are in cm on the page.
 class PlotWriter {
   public:
     PlotWriter(const Figure& figure, bool decimal_comma)

@@ -12,7 +12,7 @@
 
 namespace dynlab::inline documents {
 
-/// A chunk as it stands in the page, what its figures are drawn from apart.
+/// A chunk of the page, with the data of its figures kept separately.
 struct SliderPiece {
     std::string html;
     std::vector<std::string> figures, plots;  ///< their names, and what documents/html/plot_data.h says of each
@@ -56,8 +56,8 @@ std::vector<SliderPiece> placed_pieces(const SetDocument& document, const RunRec
     return pieces;
 }
 
-/// What of `to` is not as in `from`: of objects, and of lists of as many objects or lists, the members that differ by
-/// their names or places; anything else as a whole, in a list of its own.
+/// The part of `to` that differs from `from`. For objects, and for lists of equal length of objects or lists: the
+/// members that differ, by their names or places. For anything else: the whole value, in a one-element list.
 json difference(const json& from, const json& to) {
     const auto keyed = [](const json& value) {
         return value.is_object() || (value.is_array() && !value.empty() && value[0].is_structured());
@@ -85,8 +85,8 @@ json kept_of(const SliderPiece& own, const SliderPiece& there) {
     return figures;
 }
 
-/// Of every piece of `own` what stands there instead. Where there are more or fewer, those that differ between equal
-/// ones before and behind stand together.
+/// For every piece of `own`, its replacement at another place. If the numbers of pieces differ, the pieces that differ
+/// between equal ones before and after them form one group.
 std::vector<json> kept_of(const std::vector<SliderPiece>& own, const std::vector<SliderPiece>& there) {
     const std::size_t n = own.size(), m = there.size(), fewer = std::min(n, m);
     std::vector<json> kept(n);
@@ -117,7 +117,7 @@ std::string words_of(const DocumentSource& source) {
     return words;
 }
 
-/// Where the controls of a cell stand: behind this chunk, the cell's last or the last of what comes before it.
+/// The place of a cell's controls: after this chunk, the cell's last or the last before the cell.
 std::size_t chunk_before_control(const std::vector<SetChunk>& chunks, const PercentScript& script,
                                  const std::string& cell) {
     int last_line = 0;
@@ -129,7 +129,7 @@ std::size_t chunk_before_control(const std::vector<SetChunk>& chunks, const Perc
     return found;
 }
 
-/// Title page and list of contents, which stand before the first chunk.
+/// Title page and table of contents, which precede the first chunk.
 std::string before_chunks(std::string main) {
     std::string kept;
     for (const auto& [opens, closes] :
@@ -213,7 +213,7 @@ struct SliderPage::Parts {
     std::vector<Group> groups;
     ChunkSetter setter{true};
     std::vector<SliderPiece> drawn, own;  ///< of the run, as a printer needs it and as its places are compared with
-    std::vector<std::size_t> controls;    ///< behind which piece those of each group stand
+    std::vector<std::size_t> controls;    ///< the piece that precedes the controls of each group
     std::string words;
 };
 

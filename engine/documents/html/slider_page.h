@@ -8,7 +8,7 @@
 
 namespace dynlab::inline documents {
 
-/// A slider of a page that nobody serves.
+/// A slider of a page without a server.
 struct PlacedSlider {
     std::string name;
     RecordedSlider slider;
@@ -33,9 +33,9 @@ std::vector<double> places_of(const RecordedSlider& slider, std::size_t most = 2
 /// cell's combinations would be more than 450 or so.
 std::vector<SliderGroup> slider_groups(const RunRecord& record);
 
-/// The page that DocumentMaker made of a run with sliders: behind the cells that ask for them controls, and what the
-/// document shows at their places, for report_templates/html/sliders.js. What differs is told in chunks
-/// (documents/chunks), of figures only what is drawn otherwise.
+/// The page that DocumentMaker made of a run with sliders. Controls follow the cells that request sliders, and the page
+/// contains the document's content for their places, for report_templates/html/sliders.js. The differences are stored
+/// per chunk (documents/chunks); for figures, only the changed drawing data.
 class SliderPage {
   public:
     /// `run` is what the page was made of, its figures drawn. Throws DocumentError where it cannot be set.

@@ -22,7 +22,7 @@ std::string policy_hash(const std::string& script) {
     return "'sha256-" + base64(hash) + "'";
 }
 
-/// The first `from` of the page: it stands in the template before anything that a document can contain, or is an
+/// Replaces the first `from` of the page: the template contains it before any content of a document, or it is an
 /// element, which no document contains.
 std::string with_first(std::string page, const std::string& from, const std::string& to) {
     const std::size_t at = page.find(from);

@@ -32,7 +32,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kEnd = 2048;  ///< bytes at the end of a file within which its last mark stands
+constexpr std::size_t kEnd = 2048;  ///< bytes at the end of a file that contain its last mark
 
 std::string bytes_at(const fs::path& file, std::uint64_t from, std::size_t count) {
     std::ifstream in(file, std::ios::binary);

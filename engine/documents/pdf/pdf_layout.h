@@ -9,7 +9,7 @@
 
 namespace dynlab::inline documents {
 
-/// A word where it stands on the page: points from the upper left corner.
+/// A word and its place on the page: points from the upper left corner.
 struct PdfWord {
     double left = 0, top = 0, right = 0, bottom = 0;
     double size = 0;  ///< of the font, in points
@@ -28,7 +28,7 @@ struct PdfLayout {
     std::vector<PdfPage> pages;
 };
 
-/// What a file from somebody else may cost.
+/// Limits for reading an untrusted file.
 struct PdfLimits {
     std::uint64_t file_bytes = 100u << 20, memory_bytes = 1u << 30;
     int pages = 200, words = 200'000;

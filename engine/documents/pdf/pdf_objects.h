@@ -13,7 +13,7 @@ class QPDFWriter;
 
 namespace dynlab::inline documents {
 
-/// What looking inside a PDF from somebody else may cost; `bytes_inside` of a stream that is written out, and of the
+/// Limits for reading the objects of an untrusted PDF; `bytes_inside` limits a stream that is written out, and the
 /// answer.
 struct PdfObjectLimits {
     std::uint64_t memory_bytes = 3ull << 30, bytes_inside = 400ull << 20;
@@ -22,14 +22,14 @@ struct PdfObjectLimits {
 
 /// Work on the objects of a PDF as libqpdf reads them; `bytes` are those of the file.
 using PdfWork = std::function<std::string(QPDF& pdf, const std::string& bytes)>;
-/// Does it in a process of its own with limits, which can reach nothing but its memory, and returns its answer. Throws
+/// Does the work in a separate process with limits, which can access only its memory, and returns the answer. Throws
 /// PdfRefusal, also those of the work.
 std::string work_on_pdf_objects(const std::filesystem::path& file, const PdfObjectLimits& limits, const PdfWork& work);
 
 /// For use in such work: reads a PDF, mending what is damaged without a word. Throws QPDFExc where that cannot be done.
 void read_pdf(QPDF& pdf, const std::string& bytes);
 
-/// What a stream holds, decoded as far as nothing is lost (photographs stay as they are, and damaged streams).
+/// The content of a stream, decoded if the decoding is lossless (photographs and damaged streams stay encoded).
 struct StreamContent {
     std::string bytes;
     bool decoded = false;

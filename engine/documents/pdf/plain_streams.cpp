@@ -80,7 +80,7 @@ std::string with_plain_streams(std::string bytes) {
             writer.setStaticID(true);
         });
         if (pdf->anyWarnings()) return bytes;
-        // A copy of the process ends soon, without taking thousands of objects apart one by one.
+        // A copy of the process ends soon and need not destroy thousands of objects.
         if (is_guarded_copy() && bytes.size() < kSmallFile) static_cast<void>(pdf.release());
         return plain;
     } catch (const std::exception&) {

@@ -77,7 +77,7 @@ class ParagraphSigns {
         const std::string_view rest = text_.substr(at_ + 2, kFarthest);
         std::size_t end = rest.find(next() == '(' ? ')' : '\n');
         if (next() == '(' && end == rest.npos) links_ += 3;
-        if (next() == ':' && end != rest.npos) end = rest.find('\n', end + 1);  // the title may have a line of its own
+        if (next() == ':' && end != rest.npos) end = rest.find('\n', end + 1);  // the title may be in a separate line
         const std::string_view address = rest.substr(0, end);
         for (std::size_t quote = address.find_first_of("\"'"); quote != address.npos;
              quote = address.find_first_of("\"'", quote + 1))

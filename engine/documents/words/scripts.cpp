@@ -42,7 +42,7 @@ bool has_greek_words(const PrintableCharacters& pdflatex, std::string_view text)
     return std::ranges::any_of(beyond, is_greek) || first_greek_word(text);
 }
 
-/// What may stand between two words of one name.
+/// The characters that may separate two words of one name.
 bool is_between_words(char32_t c) {
     return c == ' ' || c == '~' || c == '-' || c == '\'' || c == '.';
 }

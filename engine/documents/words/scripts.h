@@ -31,7 +31,7 @@ std::string with_direction_marks(std::string_view latex);
 /// The text with "?" for each of these letters; accents are left out.
 std::string without_letters(std::string_view text, const std::set<char32_t>& letters);
 
-/// The characters of `text` that pdflatex cannot set one by one.
+/// The single characters of `text` that pdflatex cannot set.
 std::set<char32_t> letters_beyond(const PrintableCharacters& pdflatex, std::string_view text);
 
 }  // namespace dynlab::inline documents

@@ -8,10 +8,10 @@
 
 namespace dynlab::inline figures {
 
-/// Parameters over time as a recursive method knew them, a panel for each, with their confidence bands. `truth`, by the
-/// names of parameters, is spread evenly over the record (one value: constant). The panels
-/// show what the later two thirds and the truth need: the first guesses may leave them. Throws InvalidArgument for a
-/// history without instants, and a truth of no parameter.
+/// Parameters over time as a recursive method estimated them, one panel each, with their confidence bands. `truth`, by
+/// the names of parameters, is spread evenly over the data (one value: constant). The panels' ranges follow the last
+/// two thirds and the truth: the first estimates may leave them. Throws InvalidArgument for a history without instants,
+/// and a truth of no parameter.
 Figure history_plot(const ParameterHistory& history, const std::vector<std::string>& names,
                     const std::map<std::string, Vector>& truth = {}, double level = 0.95);
 

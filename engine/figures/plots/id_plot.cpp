@@ -46,7 +46,8 @@ bool draws_the_same(const Curve& a, const Curve& b) {
     return a.style == b.style && a.x.size() == b.x.size() && a.x == b.x && a.y == b.y;
 }
 
-/// Puts a curve into the panel, but an input that stands there already only once, in gray as it belongs to several.
+/// Adds a curve to the panel. An input that the panel already shows is not repeated, but drawn in gray as it belongs to
+/// several.
 void add_curve(Panel& panel, Curve curve, bool output) {
     const auto same = std::find_if(panel.curves.begin(), panel.curves.end(),
                                    [&](const Curve& other) { return !output && draws_the_same(curve, other); });

@@ -5,8 +5,8 @@
 
 namespace dynlab::inline figures {
 
-/// The estimate divided by the sampling time `Ts`, as stems over time, within the band around zero that chance would
-/// not leave with probability `level`, and the impulse responses of models over it. The lag that tells the dead time is
+/// The estimate divided by the sampling time `Ts`, as stems over time, with the band around zero that random values
+/// would not leave with probability `level`, and the impulse responses of models. The lag that shows the dead time is
 /// marked.
 Figure impulse_estimate_plot(const ImpulseEstimate& estimate, double Ts, const std::vector<NamedModel>& models,
                              double level = 0.99);

@@ -198,7 +198,7 @@ Message outside_text(const Panel& panel) {
     };
     Index outside = 0, all = 0;
     for (const Curve& curve : panel.curves) {
-        if (curve.style != CurveStyle::kPoints || curve.marker) continue;  // the truth has a marker of its own
+        if (curve.style != CurveStyle::kPoints || curve.marker) continue;  // the true value has a separate marker
         for (Index k = 0; k < std::min(curve.x.size(), curve.y.size()); ++k, ++all)  // not validated yet
             if (!within(panel.x_range, curve.x[k]) || !within(panel.y_range, curve.y[k])) ++outside;
     }

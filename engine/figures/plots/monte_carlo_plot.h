@@ -6,9 +6,9 @@
 
 namespace dynlab::inline figures {
 
-/// Histograms of all estimates: a row for each method, a column for each parameter, the truth marked. Columns share
-/// their range, so that bias and scatter of the methods can be compared; values so far out that they would squeeze the
-/// rest are left out, and their number stands above the panel. Throws InvalidArgument when a method has no estimates or
+/// Histograms of all estimates: a row for each method, a column for each parameter, with the true value marked. Columns
+/// share their range, so that bias and scatter of the methods can be compared. Outliers that would compress the rest
+/// are left out, and a text above the panel states their number. Throws InvalidArgument if a method has no estimates or
 /// other parameters.
 Figure monte_carlo_histograms(const MonteCarlo& study);
 
@@ -18,7 +18,7 @@ Figure monte_carlo_histograms(const MonteCarlo& study);
 Figure monte_carlo_scatter(const MonteCarlo& study, const std::string& x_name, const std::string& y_name,
                            double level = 0.95);
 
-/// What stands above such a figure's panel: how many of the estimates lie outside its ranges; empty where none do.
+/// The text above such a figure's panel: how many of the estimates lie outside its ranges; empty if none do.
 Message outside_text(const Panel& panel);
 
 }  // namespace dynlab::inline figures

@@ -10,7 +10,7 @@
 namespace dynlab::inline figures {
 namespace {
 
-constexpr double kRim = 0.3;  // around a drawing, cm of its own: moved parts may leave its frame
+constexpr double kRim = 0.3;  // around a drawing, in the drawing's cm: moved parts may leave its frame
 constexpr Index kInstants = 4;
 constexpr int kInstantDigits = 15;                      // of messages: instants may differ late
 constexpr double kFirstHeight = 0.5, kNoNumbers = 1e3;  // of the axis of y of pictures, which has no numbers to show
@@ -40,7 +40,7 @@ Vector spread_instants(const Vector& t) {
     });
 }
 
-/// The signals at an instant of the record, straight between samples.
+/// The signals at an instant of the data, by linear interpolation.
 Vector signals_at(const Vector& t, const Matrix& signals, double instant) {
     const Index after = std::clamp<Index>(std::upper_bound(t.begin(), t.end(), instant) - t.begin(), 1, t.size() - 1);
     const double part = (instant - t[after - 1]) / (t[after] - t[after - 1]);
@@ -67,7 +67,7 @@ class Strokes {
     std::vector<double> x_, y_;
 };
 
-/// Where a drawing stands on the panel of pictures: in the middle at `center` on the axis of time, above `base`.
+/// The place of a drawing on the panel of pictures: centered at `center` on the time axis, above `base`.
 struct PicturePlace {
     double seconds_per_cm, cm_per_cm, width, center, base;
 

@@ -6,7 +6,7 @@
 
 namespace dynlab::inline figures {
 
-/// What moves a rig: its parts' signals, one column a part, at instants t in seconds that rise. Either may be empty.
+/// The signals that move a plant, one column per part, at increasing instants t in seconds. Either may be empty.
 struct MotionRecord {
     Vector t;
     Matrix measured, simulated;
@@ -21,9 +21,9 @@ struct MotionAppearance {
 /// So many samples a second are kept at most, of those nearer to each other the first: what eyes and screens follow.
 inline constexpr double kMaxPictures = 50;
 
-/// A rig at some instants, each standing where its instant lies on the axis of time, above the signals that move it;
-/// dotted lines mark the instants. What is measured is gray, behind what is simulated. Throws InvalidArgument for sizes
-/// that do not fit, instants outside the record.
+/// A plant at some instants, each drawing at its instant on the time axis, above the signals that move it; dotted lines
+/// mark the instants. Measured motion is gray, behind simulated motion. Throws InvalidArgument for sizes that do not
+/// fit, or instants outside the data.
 Figure motion_plot(const PlantDrawing& plant, const MotionRecord& record, const MotionAppearance& look = {});
 
 }  // namespace dynlab::inline figures

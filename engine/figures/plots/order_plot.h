@@ -5,9 +5,9 @@
 namespace dynlab::inline figures {
 
 /// A criterion over the number of poles, one curve for each number of zeros (the best of several delays), the chosen
-/// structure marked; with one pair of poles and zeros over the delay instead. kRecommended draws the validation fit
-/// where there is one and BIC otherwise. Candidates without an estimate are left out. Throws InvalidArgument when
-/// nothing is left, and for kValidationFit without a second record.
+/// structure marked; for a single pair of poles and zeros, over the delay instead. kRecommended draws the validation
+/// fit if there is one and BIC otherwise. Candidates without an estimate are left out. Throws InvalidArgument if
+/// nothing is left, and for kValidationFit without validation data.
 Figure order_plot(const OrderSelection& selection, OrderCriterion criterion, const OrderChoice& choice);
 
 /// An open circle around the point of the chosen structure.

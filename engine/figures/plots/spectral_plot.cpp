@@ -52,7 +52,7 @@ Curve curve_of(const SpectralEstimate& estimate, const Vector& y, const Message&
     return curve;
 }
 
-/// The curves of models from the first to the last frequency, in colors of their own.
+/// The curves of models from the first to the last frequency, in separate colors.
 void add_models(Figure& figure, const std::vector<NamedModel>& models, double first, double last) {
     constexpr Index kModelPoints = 800;
     if (models.empty()) return;

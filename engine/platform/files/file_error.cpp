@@ -19,7 +19,7 @@ std::string attempt_of(const std::filesystem::filesystem_error& error) {
     return attempt.substr(0, attempt.find(": " + error.code().message()));
 }
 
-/// The library tells a copy that a full disk has stopped as an input/output error.
+/// The library reports a copy that a full disk has stopped as an input/output error.
 int reason_of(const std::filesystem::filesystem_error& error) {
     const int reason = error.code().value();
     if (reason != EIO || error.path2().empty()) return reason;

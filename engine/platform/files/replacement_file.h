@@ -39,7 +39,7 @@ class ReplacementFile {
     EndsWithProgram ends_;
 };
 
-/// Puts a copy of `from` in the place of `to`.
+/// Replaces `to` with a copy of `from`.
 void replace_by_copy(const std::filesystem::path& from, const std::filesystem::path& to);
 
 [[noreturn]] void fail_to_write(const std::filesystem::path& file, int error_number);

@@ -32,7 +32,7 @@ std::uint32_t crc32_of(const std::string& bytes) {
     return crc.checksum();
 }
 
-/// What stands before the file and, the same, in the list at the end.
+/// The common part of the header before the file and of its entry in the list at the end.
 std::string common_header(const std::string& name, const std::string& content) {
     const bool ascii = std::all_of(name.begin(), name.end(), [](char c) { return static_cast<signed char>(c) >= 0; });
     const auto size = static_cast<std::uint32_t>(content.size());

@@ -7,7 +7,7 @@
 
 namespace dynlab::inline platform {
 
-/// Random numbers that nobody can predict or compute afterwards: libsodium's generator, which the operating system
+/// Random numbers that no one can predict or compute afterwards: libsodium's generator, which the operating system
 /// seeds. Every secret comes from here (pseudonyms, review pairs, keys, tokens). There is no seed to give, store or
 /// print; numerics' RandomStream is for simulated data only.
 

@@ -4,10 +4,10 @@
 
 namespace dynlab::inline platform {
 
-/// Makes a folder that is there with everything that `fill` puts into it, or not at all: it is filled under a name of
-/// its own beside it, ".new-MACHINE-XXXXXX", and renamed. What killed calls left there is removed first; of two calls
-/// at once for one folder the first to end makes it. An empty folder may be there already. Throws EnvironmentError
-/// where another file or folder is there, or where none can be made, and what `fill` throws.
+/// Creates a folder with everything that `fill` puts into it, or not at all: the folder is filled under a temporary
+/// name next to it, ".new-MACHINE-XXXXXX", and renamed. Leftovers of killed calls are removed first; of two
+/// simultaneous calls for one folder, the first to end creates it. An empty folder may already exist. Throws
+/// EnvironmentError if another file or folder exists, or if the folder cannot be created, and whatever `fill` throws.
 void make_complete_folder(const std::filesystem::path& folder,
                           const std::function<void(const std::filesystem::path& growing)>& fill);
 

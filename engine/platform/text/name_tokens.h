@@ -5,7 +5,7 @@
 
 namespace dynlab::inline platform {
 
-/// What stands between a token and the one before it.
+/// The text between a token and the previous one.
 enum class Gap {
     kNone,    ///< nothing: "Ada2024", ideographs
     kBreak,   ///< a hyphen and the end of the line

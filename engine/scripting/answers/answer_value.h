@@ -7,8 +7,8 @@
 
 namespace dynlab::inline scripting {
 
-/// What a script hands in under a name, so that another process can read it: JSON, {"kind": K, ...} with K one of
-/// answer_kinds() (documents/percent_script.h). Numbers have 17 digits; those that JSON has not are the texts "NaN",
+/// A script's named answer, in a form that another process can read: JSON, {"kind": K, ...} with K one of
+/// answer_kinds() (documents/percent_script.h). Numbers have 17 digits; numbers that JSON lacks are the texts "NaN",
 /// "Infinity" and "-Infinity".
 struct AnswerValue {
     std::string kind, json;

@@ -22,8 +22,7 @@ inline constexpr std::array kLoopOptions = {
     option<&LoopKnowledge::hold_r>("hold_r",
                                    about("intersample behavior of the reference for a continuous-time controller"),
                                    {.initial = "\"zoh\"", .choices = kHolds})};
-/// Of kLoopOptions; without ComputingDelay the record decides between none and one
-/// sample.
+/// Reads kLoopOptions. Without ComputingDelay, the data decide between no delay and one sample.
 LoopKnowledge loop_knowledge(const Options& options);
 
 }  // namespace dynlab::inline scripting

@@ -6,7 +6,7 @@
 
 namespace dynlab::inline scripting {
 
-/// A function of a script, kept for as long as somebody needs it.
+/// A function of a script. The object keeps it alive.
 class ScriptFunction {
   public:
     ScriptFunction(lua_State* L, int index);
@@ -21,8 +21,8 @@ class ScriptFunction {
     int reference_;
 };
 
-/// Calls the function that stands below its arguments, so that nothing of Lua's passes through numerics: throws the
-/// script's own error as InvalidArgument, and `surplus` where the function returns more than `results` values.
+/// Calls the function below its arguments on the stack, so that no Lua error passes through numerics. Throws the
+/// script's own error as InvalidArgument, and `surplus` if the function returns more than `results` values.
 void call_or_throw(lua_State* L, int arguments, int results, Message (*surplus)());
 
 /// __index of a table by names, raises; upvalues: "state", "x", their names.

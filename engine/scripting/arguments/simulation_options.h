@@ -47,7 +47,7 @@ inline constexpr ArgumentEntry kRecordArgument = {"data", ValueKind::kData,
 inline constexpr ArgumentEntry kModelArgument = {"G", ValueKind::kModel, about("model")};
 inline constexpr std::array kRecordAndModel = {kRecordArgument, kModelArgument};
 
-/// The options InitialState and Offset of functions that simulate a model on a record.
+/// The options InitialState and Offset of functions that simulate a model on data.
 CompareOptions compare_options(const Options& options, InitialState otherwise = InitialState::kAuto);
 
 /// The option hold: how inputs go on between samples.
@@ -72,10 +72,10 @@ Predictions prediction_argument(const Call& call, int index, const IdData& data,
 /// The signal that drives the linear part of the model argument: f(u) of one that begins with a static characteristic f
 /// (hammerstein), u itself of all others.
 Matrix driving_input(const Call& call, int index, const Matrix& u);
-/// The data with that in the place of the input: in `storage` where something changes.
+/// The data with driving_input() as the input; `storage` holds the copy if the input changes.
 const IdData& driving_data(const Call& call, int index, const IdData& data, IdData& storage);
 
-/// Makes a number at `index`, where options may stand, the table {k = number}: compare(data, G, 5).
+/// Converts a number at `index`, the place of the options, to the table {k = number}: compare(data, G, 5).
 void read_steps_as_option(const Call& call, int index);
 /// The option k: a whole number of steps from 1 on, or nothing for math.huge, a simulation.
 std::optional<Index> steps_option(const Options& options, std::optional<Index> fallback);

@@ -59,7 +59,7 @@ int advice_table(Call& call) {
     return 1;
 }
 
-/// A recalled result is a plain table: how it is printed is added here.
+/// A result from the cache is a plain table: this function adds its __tostring.
 int give_advice(Call& call) {
     run_memoized_call(call, advice_table);
     lua_createtable(call.state(), 0, 1);

@@ -21,7 +21,7 @@ int compare_traced(const Call& call, const std::shared_ptr<Trace>& trace) {
                                   tape.constant(with_equal ? 1 : 0)));
 }
 
-/// One truth value per element of v: does it stand in the relation to x (a number, or a vector of the same length)?
+/// One truth value per element of v: whether the relation to x holds (x is a number, or a vector of the same length).
 template <class Relation>
 int compare_elements(Call& call) {
     call.at_most(2);

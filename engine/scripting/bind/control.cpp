@@ -45,7 +45,7 @@ int lqr(Call& call) {
                                                           call.matrix(4, "R")));
 }
 
-/// A list of numbers and of pairs {re, im}, each of which stands for re + i im and re - i im.
+/// A list of numbers and of pairs {re, im}; each pair means re + i im and re - i im.
 ComplexVector listed_poles(const Call& call, int index) {
     lua_State* L = call.state();
     if (lua_type(L, index) != LUA_TTABLE)

@@ -201,7 +201,7 @@ Matrix signals(const Call& call, int index, ArgumentName what, Index samples) {
     return call.matrix(index, what);
 }
 
-/// Names or units for every channel; one text stands for a single channel.
+/// Names or units for every channel; a single text is valid for a single channel.
 void set_texts(const Options& options, const char* name, std::vector<std::string>& texts, Index channels) {
     if (!options.has(name)) return;
     texts = options.texts(name);

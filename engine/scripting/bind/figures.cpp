@@ -261,7 +261,7 @@ int subplot(Call& call) {
     return give_figure(call, std::move(figure));
 }
 
-/// The signals of the rig's parts, a column each, from a table with a vector for each.
+/// The signals of the plant's parts, one column each, from a table with a vector for each.
 Matrix signals_of_parts(const Options& options, const char* name, const PlantDrawing& plant, Index count) {
     if (!options.has(name)) return {};
     const Call& call = options.call();
@@ -275,7 +275,7 @@ Matrix signals_of_parts(const Options& options, const char* name, const PlantDra
         if (lua_getfield(call.state(), table, part.signal.c_str()) == LUA_TNIL)
             throw InvalidArgument("option '{}' does not contain the {} ({}), which animates the plant", name,
                                   part.signal, part.unit);
-        const Call with_signal(call.state());  // it counts what stands on the stack now
+        const Call with_signal(call.state());  // it counts the current entries of the stack
         if (!with_signal.holds_vector(with_signal.count()))
             throw InvalidArgument("the {} {} must be a vector, but it is {}", name, part.signal,
                                   given_value(call.state(), with_signal.count()));

@@ -126,7 +126,7 @@ int field_parameter(Call& call) {
                           listed(parameters.names));
 }
 
-/// A matrix of a state-space model, or what the letter stands for in any other.
+/// A matrix of a state-space model, or the field of the same letter of other models.
 template <Matrix StateSpace::*kMatrix, int (*kOther)(Call&)>
 int field_matrix(Call& call) {
     const Model& model = model_self(call);

@@ -111,7 +111,7 @@ double own_noise_std(const Model* model) {
                           model->estimate->method);
 }
 
-/// The script's own stream, or one of its own from the option seed.
+/// The script's own random stream, or a separate one from the option seed.
 class DrawnNumbers {
   public:
     DrawnNumbers(const Call& call, const Options& options) : stream_(&call.context().random) {

@@ -73,7 +73,7 @@ constexpr ArgumentEntry kImpulseArguments[] = {
      about("length of the response in samples, 1 to 400; by default the smaller of 70 and N/5")},
     kComparedModels};
 
-/// (data, G1, G2, ..., {options}): the models to draw over the estimate, and where the options stand.
+/// (data, G1, G2, ..., {options}): the models to draw over the estimate, and the index of the options.
 struct SpectralModels {
     const IdData& data;
     std::vector<NamedModel> models;
@@ -150,7 +150,7 @@ int spectral_analysis(Call& call) {
     return give_spectral(call, options, read, spa(read.data, requested), "spa", true);
 }
 
-/// The number of lags where it stands behind the data, which is taken off the arguments; else 0.
+/// Removes the number of lags after the data from the arguments and returns it; 0 if there is none.
 Index take_lags(Call& call) {
     if (call.type(2) != LUA_TNUMBER) return 0;
     const Index lags = call.size(2, "lags");

@@ -119,7 +119,8 @@ std::vector<TransferStructure> grid_of(const Options& options, const IdData& dat
                       options.flag("Feedthrough", false));
 }
 
-/// A list of order vectors {{nb, nf, nk}, ...}, the second argument; each of them stands there while it is read.
+/// A list of order vectors {{nb, nf, nk}, ...}, the second argument; each vector replaces the list at index 2 while it
+/// is read.
 std::vector<TransferStructure> listed_structures(const Call& call, const IdData& data) {
     lua_State* L = call.state();
     std::vector<TransferStructure> structures;
@@ -144,7 +145,7 @@ bool is_list(const Call& call, int index) {
     return found;
 }
 
-/// The second record, or nothing.
+/// The validation data set, or nothing.
 const IdData* validation_record(const Options& options) {
     if (!options.has("validate")) return nullptr;
     const IdData* record = to_object<IdData>(options.call().state(), options.push("validate"));

@@ -76,8 +76,8 @@ int give_descriptions(const Call& call) {
     return 1;
 }
 
-/// The course's experiments, with the parameters their headers state or another specimen's; rig() tells which there
-/// are.
+/// The course's experiments, with the parameters that their headers state or those of another plant variant; without
+/// arguments, a list of the experiments.
 int plant(Call& call) {
     call.at_most(2);
     if (call.count() == 0) return give_descriptions(call);
@@ -88,8 +88,8 @@ int plant(Call& call) {
     return 1;
 }
 
-/// Where the script is graded, of a specimen that nobody has a record of: what theory says is there to be held against
-/// an answer, not to be handed in as one.
+/// In graded runs, the true model is that of a variant without any data set: an answer may be compared with theory, and
+/// a theoretical value cannot be submitted as an answer.
 int rig_truth(Call& call) {
     constexpr std::uint32_t kOfNobody = 0x8000'0000;
     call.at_most(2);

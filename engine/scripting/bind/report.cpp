@@ -206,7 +206,7 @@ int slider(Call& call) {
 
 constexpr const char* kGuesses = "dynlab guesses";  // in Lua's registry: a table for each name
 
-/// Pushes the table of all guesses.
+/// Pushes the table of all predictions.
 void push_guesses(lua_State* L) {
     luaL_getsubtable(L, LUA_REGISTRYINDEX, kGuesses);
 }
@@ -216,8 +216,8 @@ Message with_unit(double value, const std::string& unit) {
     return unit.empty() ? Message("{}", number) : Message("{} {}", number, unit);
 }
 
-/// How far a guess is from the result, in per cent of the result; of a quantity in per cent, in percentage points.
-/// Empty where that has no meaning.
+/// The distance of a prediction from the result, in percent of the result; for a quantity in percent, in percentage
+/// points. Empty if the distance has no meaning.
 Message distance(double guessed, double found, const std::string& unit) {
     if (!std::isfinite(found) || !std::isfinite(guessed)) return {};
     if (unit == "%") return Message("off by {} percentage points", significant(std::abs(guessed - found), 2));

@@ -57,7 +57,7 @@ void push_output(const Call& call, const OutputResiduals& output) {
     lua_setfield(L, -2, "inputs");
 }
 
-/// {outputs = {...}, residuals = {per experiment}, verdict =, white =, independent =}
+/// Pushes a table with the fields outputs, residuals (per experiment), `verdict`, white and independent.
 void push_tests(const Call& call, const ResidualTests& tests) {
     lua_State* L = call.state();
     lua_createtable(L, 0, 5);

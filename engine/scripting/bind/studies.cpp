@@ -49,7 +49,7 @@ struct MethodArguments {
     Estimation estimation;
 };
 
-/// Runs in a frame of its own, where the arguments stand as in a call of the method itself.
+/// Runs in a separate stack frame, with the arguments in the places of a direct call of the method.
 int read_arguments(Call& call) {
     auto* arguments = static_cast<MethodArguments*>(lua_touserdata(call.state(), lua_upvalueindex(2)));
     arguments->estimation = arguments->reader(call);
@@ -69,7 +69,7 @@ MonteCarloMethod method_of_table(const Call& call, const std::string& label, con
     lua_pushlightuserdata(L, const_cast<char*>(name.c_str()));
     lua_pushlightuserdata(L, &arguments);
     lua_pushcclosure(L, guarded<read_arguments>, 2);
-    lua_pushnil(L);  // where the data stand
+    lua_pushnil(L);  // the place of the data
     const auto last = static_cast<lua_Integer>(lua_rawlen(L, table));
     luaL_checkstack(L, static_cast<int>(std::max<lua_Integer>(last, 0)) + 4, "too many arguments of an estimator");
     for (lua_Integer i = first; i <= last; ++i) lua_rawgeti(L, table, i);

@@ -97,7 +97,7 @@ Message level_text(double level, const std::string& unit) {
     return unit.empty() ? Message("{}", significant(level, 3)) : Message("{} {}", significant(level, 3), unit);
 }
 
-/// An offset that nobody asked for, and that changes the fit in the digit which is printed: it says so, once a line.
+/// Prints a line for each offset that the script did not request and that changes a printed digit of the fit.
 void note_offsets(const Call& call, const IdData& data, const Comparison& comparison) {
     constexpr double kPrinted = 0.05;  // of a fit in per cent
     const Vector without = fits_without_offsets(data, comparison);

@@ -16,8 +16,8 @@
 
 namespace dynlab::inline scripting {
 
-/// What an argument is called in messages: a name of the signature, "data", or a phrase, Message("your guess"). Made
-/// without a cost for every argument that is read; both must outlive it.
+/// The name of an argument in messages: a name of the signature, "data", or a phrase, Message("your prediction").
+/// Creating one costs nothing for each argument that is read; both texts must outlive it.
 class ArgumentName {
   public:
     ArgumentName(const char* name) : name_(name) {}            // NOLINT: names are arguments' names
@@ -65,7 +65,7 @@ class Call {
     bool holds_vector(int index) const;  ///< vector userdata or plain table of numbers
 
     std::function<bool()> cancel() const;       ///< for long work of the core: true after Ctrl-C or a limit of time
-    void print(const std::string& text) const;  ///< into the record, and live
+    void print(const std::string& text) const;  ///< adds to the run results and prints at once
     /// Whole lines; between two blocks of several comes an empty one.
     void print_lines(const std::string& text) const;
 
@@ -87,14 +87,14 @@ class Call {
 Message option_label(const char* name);
 /// Throws InvalidArgument: what the option must be, and what was given.
 [[noreturn]] void refuse_option(const char* name, const Message& requested, const Message& given);
-/// What stands at a stack index, in words: "the text "zoh"", "nil (no value)", "a vector of 5 values".
+/// The value at a stack index, in words: "the text "zoh"", "nil (no value)", "a vector of 5 values".
 Message given_value(lua_State* L, int index);
 
 /// A table {name = value} whose names are all known; an unknown one throws InvalidArgument with the nearest known name.
 class Options {
   public:
-    /// An absent table stands for all defaults. `index` may be any stack index. Numbers are held to the bounds that
-    /// their entries state.
+    /// An absent table means all defaults. `index` may be any stack index. Numbers must be within the bounds that their
+    /// entries state.
     Options(const Call& call, int index, OptionTables known);
 
     /// Sets the members of a struct that have an option which is given (conversions/option_member.h).
@@ -129,7 +129,7 @@ class Options {
 };
 
 template <class T>
-inline constexpr char options_tag = 0;  ///< its address tells structs of options apart
+inline constexpr char options_tag = 0;  ///< its address distinguishes structs of options
 
 template <class T>
 void Options::read(T& into) const {

@@ -43,7 +43,7 @@ double bytes_of(Index rows, Index columns) {
     return 8.0 * static_cast<double>(rows) * static_cast<double>(columns) + NumericBlock::kAlignment;
 }
 
-/// Numbers that the entry on top of the stack stands for: one, or a vector's; -1 for anything else.
+/// The number of values in the entry on top of the stack: one, or a vector's size; -1 for anything else.
 Index entry_size(lua_State* L) {
     if (lua_type(L, -1) == LUA_TNUMBER) return 1;
     const NumericBlock* block = to_vector(L, -1);
@@ -64,7 +64,7 @@ Index joined_size(lua_State* L, int index, Index entries, const Message& label) 
     return total;
 }
 
-/// Of a table without numbered entries: an empty one, or a record of variables, say.
+/// Throws for a table without numbered entries: an empty one, or for example a table of named variables.
 [[noreturn]] void refuse_without_entries(lua_State* L, int index, const Message& label) {
     std::vector<std::string> names;
     collect_text_keys(L, index, names);

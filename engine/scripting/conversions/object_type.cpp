@@ -57,7 +57,7 @@ Message unknown_member_of(lua_State* L, const TypeEntry& members, const std::str
                          : Message("{} has no field or method '{}'; it has {}", object, key, listed(names));
 }
 
-/// The help page that tells what an object of this kind has.
+/// The help page that lists the members of an object of this kind.
 std::string_view page_of(std::string_view kind) {
     using KindPage = std::pair<std::string_view, std::string_view>;
     static constexpr std::array kPages = {KindPage{"complex number", "pole"},

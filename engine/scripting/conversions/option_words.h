@@ -7,7 +7,7 @@
 
 namespace dynlab::inline scripting {
 
-/// The message with the reader's names of options in the place of its OptionName arguments, for every later reader.
+/// The message with the reader's names of options for its OptionName arguments, for every later reader.
 Message with_script_options(const Message& message, const Reader& reader);
 
 /// About an option that is none of these.

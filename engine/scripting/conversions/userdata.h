@@ -12,13 +12,13 @@
 
 namespace dynlab::inline scripting {
 
-/// Each boxed C++ class says which object type it is (its members are a TypeEntry) and how many bytes it holds outside
-/// Lua:
-///   template <> struct Boxed<IdData> { static constexpr ObjectType type{"iddata"};
-///                                      static std::size_t outside_bytes(const IdData&); };
-/// A class of large objects that nobody changes once they are pushed may also say `static Digest digest(const T&)`, of
-/// all its content: its objects are then handed out as constant, and the digest of each is computed once. Such objects
-/// can be shared with C++ beyond the life of the userdata (shared_object).
+/// Each C++ class in a userdata states its object type (its members are a TypeEntry) and how many bytes it holds
+/// outside Lua:
+///   template <> struct Userdata<IdData> { static constexpr ObjectType type{"iddata"};
+///                                         static std::size_t outside_bytes(const IdData&); };
+/// A class of large objects that never change after they are pushed may also declare `static Digest digest(const T&)`,
+/// of all its content: its objects are then passed on as constant, and the digest of each is computed once. Such
+/// objects can be shared with C++ beyond the life of the userdata (shared_object).
 template <class T>
 struct Userdata;
 

@@ -25,7 +25,7 @@ std::string first_words(const std::string& text) {
     if (lines.size() < 3) return lines.empty() ? "" : lines.front();
     const std::string above = trimmed(lines[0]), below = trimmed(lines[2]);
     const std::size_t width = std::max(above.size(), below.size());
-    // The longer one stands just above or below the bar, in front of which there may be a delay.
+    // The longer line is directly above or below the bar; a delay may precede the bar.
     const std::size_t bar = (above.size() == width ? lines[0] : lines[2]).find_first_not_of(' ');
     if (width == 0 || bar >= lines[1].size() || lines[1].substr(bar, width) != std::string(width, '-'))
         return lines.front();

@@ -220,7 +220,7 @@ int script_ipairs(lua_State* L) {
     return 3;
 }
 
-/// Puts `wrapper` in place of a field of the table on top, with the field's old value as upvalue.
+/// Replaces a field of the table on top with `wrapper`, which has the field's old value as upvalue.
 void wrap_field(lua_State* L, const char* name, lua_CFunction wrapper) {
     lua_getfield(L, -1, name);
     lua_pushcclosure(L, wrapper, 1);

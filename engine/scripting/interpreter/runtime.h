@@ -20,7 +20,8 @@ struct RuntimeContext;
 /// library; text chunks only; memory counted and limited. Globals stay from one run to the next, as a prompt needs.
 class Runtime {
   public:
-    /// `renderer` draws what scripts save; it is shared with whoever draws the record's figures afterwards.
+    /// `renderer` draws the figures that scripts save; the caller may use it later to draw the figures of the run
+    /// results.
     Runtime(RunOptions options, GnuplotRenderer& renderer);
     ~Runtime();
     Runtime(const Runtime&) = delete;
@@ -35,14 +36,14 @@ class Runtime {
     Services& services();  ///< for programs to fill
 
     /// Runs the whole script as one chunk, so that its locals span cells; output, figures and times go to the cell at
-    /// the line the main chunk has reached. An error of the script is in the record, with file and line. Throws
+    /// the line the main chunk has reached. The run results contain an error of the script, with file and line. Throws
     /// Interrupted after Ctrl-C (while an InterruptScope lives), once the Lua state is unwound.
     RunRecord run(const PercentScript& script);
-    /// The same for plain Lua text as a single cell "cell-1"; `name` stands for the file in messages.
+    /// The same for plain Lua text as a single cell "cell-1"; messages use `name` as the file's name.
     RunRecord run_code(const std::string& code, const std::string& name);
-    /// The same in parts, for a document that follows its script: begin, then every part of `script` in turn, which is
-    /// a chunk of its own with the variables that a prompt's statements share. Parts that have run stay as they are
-    /// when the next one is taken from a later text of the script. Gives what has been recorded so far, all told.
+    /// The same in parts, for a document that follows its script: begin_parts(), then every part of `script` in turn.
+    /// Each part is a separate chunk with the variables that a prompt's statements share. Parts that have run stay
+    /// unchanged when the next one is taken from a later text of the script. Returns everything recorded so far.
     void begin_parts(const PercentScript& script);
     RunRecord run_part(const PercentScript& script, const ScriptPart& part);
     /// A statement of the prompt as a single cell: its values are printed (unless it is silent; a figure is shown

@@ -10,7 +10,7 @@ namespace dynlab::inline scripting {
 /// The ways to call a function: "step(G, t) -> y; step(G1, ...) -> fig" taken apart at the semicolons.
 std::vector<std::string> forms_of(const std::string& signature);
 
-/// What stands between the brackets of "f(data, {na, nb}, x, {options}) -> G", taken apart at the outer commas.
+/// The text between the brackets of "f(data, {na, nb}, x, {options}) -> G", split at the outer commas.
 std::vector<std::string> arguments_of(const std::string& form);
 
 /// Whether an argument of a form is a table of options.

@@ -89,7 +89,7 @@ class Linter {
         const auto error = reader.error_of(read);
         if (!error) return true;
         const PlacedMessage reported = syntax_error(*error, source_);
-        const std::size_t end = source_.find_last_not_of(" \t\r\n") + 1;  // what is missing there is told there
+        const std::size_t end = source_.find_last_not_of(" \t\r\n") + 1;  // a missing token is reported there
         const std::size_t place = std::min(offset_of_line(std::max(reported.line, 1)), end),
                           stop = stopping_place(reader);
         const bool same_line = stop >= place && source_.find('\n', place) >= stop;

@@ -6,7 +6,7 @@
 
 namespace dynlab::inline scripting {
 
-/// A name that is no local variable where it stands.
+/// A name that is no local variable at its place.
 struct GlobalUse {
     std::string name, member;  ///< of `report.value` both; `member` is empty where none follows
     std::size_t begin = 0, member_begin = 0;
@@ -40,8 +40,8 @@ struct WalkedScript {
     std::vector<std::string> locals;  ///< every name that is one somewhere
 };
 
-/// What names a script reads, writes and calls, by Lua's rules of scope. `source` is Lua, where expressions may stand
-/// for statements; of other text the result means little. All places are offsets in bytes.
+/// The names that a script reads, writes and calls, by Lua's rules of scope. `source` is Lua, in which expressions may
+/// be used as statements; for other text the result means little. All places are offsets in bytes.
 WalkedScript walk_script(std::string_view source);
 
 }  // namespace dynlab::inline scripting

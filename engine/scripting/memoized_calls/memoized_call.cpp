@@ -48,7 +48,7 @@ namespace {
 
 constexpr int kDeepestTableOfCall = 20;
 
-/// Writes values one behind the other, each so that it tells where it ends.
+/// Writes a sequence of values, each in a form from which its end is known.
 class CallWriter {
   public:
     CallWriter(lua_State* L, LargeArguments large) : L_(L), by_content_(large == LargeArguments::kByContent) {}

@@ -5,8 +5,8 @@
 
 namespace dynlab::inline scripting {
 
-/// Writes the value of a script at a stack index, tables with all they hold. False, with something written, for what
-/// has no lasting content: functions, coroutines, tables that behave in ways of their own or lie too deep.
+/// Writes the value of a script at a stack index, with the entire content of tables. Returns false, after writing some
+/// data, for values without lasting content: functions, coroutines, tables with metatables or too many levels.
 bool put_value(lua_State* L, int index, CborWriter& archive);
 
 /// Pushes an equal value. The figures among it are added to `figures`; the recorder does not know them yet. Throws

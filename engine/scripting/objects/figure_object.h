@@ -10,7 +10,8 @@ struct Userdata<FigurePointer> {
     static std::size_t outside_bytes(const FigurePointer& figure);
 };
 
-/// Pushes a new figure, checked, and tells the recorder, so that its cell shows it unless it is used elsewhere.
+/// Pushes a new figure, validated, and registers it with the recorder, so that its cell shows it unless it is used
+/// elsewhere.
 int give_figure(const Call& call, Figure figure);
 
 /// The figure of an argument that puts it somewhere: it no longer belongs to its cell alone.

@@ -130,7 +130,7 @@ Estimate named_estimate(const char* method, const Fit& fit) {
     return estimate;
 }
 
-/// What a fit of one kind says besides.
+/// Adds the fields that depend on the kind of fit.
 void add_kind(Estimate& estimate, const Fit& fit, FitForm form) {
     estimate.carx = form == FitForm::kEquationError;
     estimate.of_coefficients = is_of_coefficients(fit);

@@ -27,7 +27,7 @@ int give_fit(const Call& call, const char* method, const Fit& fit, FitForm form 
 int give_diagnosed_fit(const Call& call, const char* method, const Fit& fit, const FitOptions& options);
 /// The same of an estimate that computes something from the data at argument 1 when it is read.
 int give_deferring(const Call& call, Estimate estimate, const Fit& fit);
-/// The same with what a method says besides.
+/// The same for an estimate with additional results of the method.
 int give_estimate(const Call& call, Estimate estimate, const Fit& fit);
 /// The same of a fit with states, which has no theta.
 int give_system(const Call& call, Estimate estimate, const Fit& fit, const StateSpace& system);

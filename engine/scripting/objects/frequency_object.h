@@ -11,7 +11,7 @@ struct Userdata<FrequencyData> {
     static std::size_t outside_bytes(const FrequencyData& data);
 };
 
-/// Whether one stands at a stack index.
+/// Whether there is a frequency response at a stack index.
 inline bool holds_response(const Call& call, int index) {
     return index <= call.count() && to_object<FrequencyData>(call.state(), index) != nullptr;
 }

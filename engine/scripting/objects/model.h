@@ -32,7 +32,7 @@ struct ReportFields {
     std::size_t values() const;  ///< numbers in vectors and matrices
 };
 
-/// What an estimation method says of a model besides its coefficients.
+/// The results of an estimation method other than the coefficients.
 struct Estimate {
     std::string method;              ///< Lua name
     std::vector<std::string> names;  ///< of the parameters

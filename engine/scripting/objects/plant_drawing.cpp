@@ -13,7 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Reads the installed drawings, in a Lua of its own: what a script did to its functions changes none of them.
+/// Reads the installed drawings in a separate Lua state: changes that a script made to its functions do not affect
+/// them.
 class DrawingReader {
   public:
     DrawingReader() : state_(luaL_newstate(), lua_close), folder_(shared_folder() / "report_templates") {

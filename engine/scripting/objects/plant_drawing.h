@@ -5,8 +5,8 @@
 
 namespace dynlab::inline scripting {
 
-/// The drawing of a rig that moves, report_templates/drawings/NAME.lua with its table `motion`, as documents show it
-/// (report_templates/filters/shapes.lua). Throws InvalidArgument, which lists those there are, for a name without one.
+/// The drawing of a moving plant, report_templates/drawings/NAME.lua with its table `motion`, as documents show it
+/// (report_templates/filters/shapes.lua). Throws InvalidArgument, which lists the drawings, for a name without one.
 PlantDrawing plant_drawing(const std::string& name);
 
 }  // namespace dynlab::inline scripting

@@ -14,7 +14,8 @@ struct Trace {
     bool inputs_indexed = false;  ///< u[1] was written
 };
 
-/// A value that is not known yet. `inputs`: it stands for all inputs, of which it is the first by itself.
+/// A value that is not known yet. `inputs`: the value represents all inputs; used without an index, it is the first
+/// input.
 struct TracedValue {
     std::shared_ptr<Trace> trace;
     ExpressionTape::Node node = 0;

@@ -18,9 +18,9 @@ class CommandHistory {
     explicit CommandHistory(std::filesystem::path file);
 
     const std::vector<std::string>& lines() const { return lines_; }
-    /// Adds a line to the end, and to the file at once: several prompts may write to it at the same time. Returns
-    /// whether it was worth keeping: not blank, not too long, not the same as the one before. A file that cannot be
-    /// written keeps nobody from working.
+    /// Appends a line, and writes it to the file at once: several prompts may write to the file at the same time.
+    /// Returns whether the line was kept: it is not blank, not too long, and differs from the previous one. The prompt
+    /// also works if the file cannot be written.
     bool add(std::string_view line);
 
   private:

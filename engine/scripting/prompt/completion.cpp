@@ -31,9 +31,9 @@ std::vector<std::string_view> chain_at_end(const Tokens& tokens) {
     return {};
 }
 
-/// What surrounds the cursor: the call it stands in, and whether in braces directly inside its brackets.
+/// The context of the cursor: the call around it, and whether it is in braces directly inside the call's brackets.
 struct Surroundings {
-    std::string function;  ///< "" when the cursor stands in no call
+    std::string function;  ///< "" if the cursor is in no call
     bool in_braces = false;
     int argument = 0;  ///< commas of the call before the cursor
 };
@@ -122,7 +122,7 @@ void append(std::vector<std::string>& names, std::vector<std::string> more) {
     names.insert(names.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
-/// load("na and help("na: the open string is the last token, the function stands before it.
+/// load("na and help("na: the open string is the last token, and the function precedes it.
 Completion complete_string(lua_State* L, const Tokens& tokens) {
     Tokens before(tokens.begin(), tokens.end() - 1);
     if (!before.empty() && before.back().is("(")) before.pop_back();

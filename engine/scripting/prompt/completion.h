@@ -10,7 +10,7 @@
 
 namespace dynlab::inline scripting {
 
-/// What could stand at the cursor.
+/// The possible texts at the cursor.
 struct Completion {
     std::size_t typed = 0;                ///< bytes before the cursor that each candidate starts with
     std::vector<std::string> candidates;  ///< whole words, sorted, each once
@@ -26,7 +26,7 @@ struct Completion {
 /// script defined: metamethods stay out, only the read-only fields of dynlab's own objects are computed.
 Completion complete(lua_State* L, std::string_view text);
 
-/// The call of a function of dynlab in which the end of a text stands.
+/// The call of a dynlab function that contains the end of a text.
 struct CallAtCursor {
     const FunctionEntry* function;
     int argument;  ///< which one is being written, from 0

@@ -8,8 +8,8 @@
 namespace dynlab::inline scripting {
 
 /// The prompt on the terminal (standard input and output): reads statements, one line or several, until Ctrl-D or quit.
-/// An error or Ctrl-C ends the statement, not the prompt. Expects an InterruptScope.
-/// `first`: a statement that is run before, unless empty. `see` gets each figure, besides its file.
+/// An error or Ctrl-C ends the statement, not the prompt. Expects an InterruptScope. `first`: a statement to run first,
+/// unless empty. `see` gets each figure, in addition to its file.
 void run_prompt(const std::filesystem::path& figure_folder, const std::string& greeting, const std::string& first,
                 const FigureListener& see);
 

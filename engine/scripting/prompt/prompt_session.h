@@ -13,7 +13,7 @@
 
 namespace dynlab::inline scripting {
 
-/// The outcome of a statement, besides the text it printed.
+/// The outcome of a statement, apart from the printed text.
 struct StatementResult {
     std::optional<RecordedError> error;          ///< with its place ("prompt", 2); nothing when all went well
     std::vector<std::filesystem::path> figures;  ///< files of the figures it made, also before an error
@@ -30,8 +30,8 @@ class PromptSession {
     PromptSession(std::filesystem::path figure_folder, std::function<void(const std::string&)> print,
                   FigureListener see = {});
 
-    /// `name` stands for the file in messages. Ctrl-C ends the statement with the error "interrupted" (while an
-    /// InterruptScope lives); nothing is thrown that a statement can cause.
+    /// Messages use `name` as the file's name. Ctrl-C ends the statement with the error "interrupted" (while an
+    /// InterruptScope lives). The function never throws because of a statement.
     StatementResult run(const PromptStatement& statement, const std::string& name);
     Completion complete_end(std::string_view text);  ///< of a statement, up to the cursor
 

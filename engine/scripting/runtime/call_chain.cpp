@@ -17,7 +17,7 @@ constexpr int kMostArguments = 6, kMaxLevels = 100;
 std::string short_value_text(lua_State* L, int index) {
     if (lua_type(L, index) == LUA_TTABLE && luaL_getmetafield(L, index, "__tostring") != LUA_TNIL) {
         lua_pop(L, 1);
-        return "table";  // the script's own function is not called while its error is told
+        return "table";  // the script's own function is not called while its error is reported
     }
     std::string text = value_text(L, index);
     if (lua_type(L, index) == LUA_TSTRING) text = '"' + text + '"';
@@ -26,7 +26,7 @@ std::string short_value_text(lua_State* L, int index) {
     return characters.size() <= kMaxArgumentLength ? text : utf8_of(characters.substr(0, kMaxArgumentLength)) + " ...";
 }
 
-/// "gain(x = 2)" of an activation record.
+/// "gain(x = 2)" for the activation of a function.
 Message call_words(lua_State* L, lua_Debug& record) {
     lua_getinfo(L, "nSu", &record);
     if (std::string_view(record.what) == "main") return Message("ran {}", record.short_src);

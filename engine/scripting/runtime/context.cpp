@@ -9,7 +9,7 @@
 namespace dynlab::inline scripting {
 namespace {
 
-/// Activation record of the outermost call of a thread: where the main chunk runs.
+/// The activation of the outermost call of a thread: the main chunk.
 bool outermost_call(lua_State* L, lua_Debug& record) {
     int inside = 0, outside = 1;
     while (lua_getstack(L, outside, &record)) {

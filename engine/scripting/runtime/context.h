@@ -44,7 +44,7 @@ struct RuntimeContext {
     std::vector<const FunctionEntry*> functions;             ///< all that scripts can call, later layers' too
     std::map<const ObjectType*, const TypeEntry*> types;     ///< all kinds of objects that scripts can hold
     std::string (*option_name)(std::string_view) = nullptr;  ///< for Reader::option_name
-    const ShownCalls* shown_calls = nullptr;                 ///< calls that show their values where they stand alone
+    const ShownCalls* shown_calls = nullptr;                 ///< calls that show their values when used as statements
     Services services;
 
     lua_State* main = nullptr;
@@ -53,7 +53,7 @@ struct RuntimeContext {
     std::string source;           ///< of the running script
     /// Where tic() was called last, and the script began.
     std::chrono::steady_clock::time_point tic{}, began = std::chrono::steady_clock::now();
-    lua_Debug main_chunk{};  ///< activation record of the running main chunk
+    lua_Debug main_chunk{};  ///< activation of the running main chunk
     bool main_chunk_known = false;
     bool running = false;
     bool told_sampling_time = false;         ///< that iddata took 1 s
@@ -81,7 +81,7 @@ void poll_stop(lua_State* L);
 /// Passes a stop on that is under way, whatever the script tried to catch.
 void pass_stop_on(lua_State* L);
 [[noreturn]] void raise_stop(lua_State* L, StopReason reason);
-/// Pushes the text of an error, for scripts to catch, and remembers what it stands for.
+/// Pushes the text of an error, for scripts to catch, and keeps the error for that text.
 void push_error(lua_State* L, PlacedMessage error);
 /// Raises it with the place of the script's line.
 [[noreturn]] void raise_error(lua_State* L, const Message& message);

@@ -24,12 +24,13 @@ void push_memory_error(lua_State* L);
 /// which was raised last, if this is its text, and else this text, verbatim.
 PlacedMessage error_at(lua_State* L, int index);
 
-/// About a name that nobody defined, in this line of a script (empty where it is not known); `names` are those there
-/// are.
+/// The message about an undefined name in this line of a script (empty if the line is unknown); `names` are the defined
+/// names.
 Message unknown_name(const std::string& name, const std::string& line, std::vector<std::string> names);
 /// About a function of dynlab that a script gives another value.
 Message replaced_name(const std::string& name);
-/// About a member that a table of dynlab lacks; `of_library`: a function by itself is called so.
+/// The message about a member that a table of dynlab lacks; `of_library`: the functions are also called without the
+/// table.
 Message unknown_member(const std::string& table, const std::string& key, bool of_library,
                        std::vector<std::string> names);
 

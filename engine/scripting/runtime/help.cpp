@@ -214,7 +214,7 @@ std::string with_bounds(const char* kind, const OptionFacts& facts) {
     return text;
 }
 
-/// What the option takes, as far as one phrase says it.
+/// The values that the option takes, in one phrase.
 std::string kind_of(const OptionEntry& option) {
     switch (option.kind) {
         case ValueKind::kNumber:

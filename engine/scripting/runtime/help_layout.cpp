@@ -28,7 +28,7 @@ bool is_in_word(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0;
 }
 
-/// Without the backticks of code and the stars of emphasis; what stands in code stays as it is.
+/// The text without the backticks of code and the stars of emphasis; text inside code stays unchanged.
 std::string without_marks(std::string_view text) {
     std::string plain;
     for (std::size_t i = 0; i < text.size(); ++i) {

@@ -5,8 +5,8 @@
 
 namespace dynlab::inline scripting {
 
-/// Plain text filled into lines of at most `width` columns of a terminal, all but the first indented; a word that is
-/// longer stands alone and whole. No line end behind the last.
+/// Plain text filled into lines of at most `width` columns of a terminal, all but the first indented. A longer word
+/// gets a separate, unbroken line. The last line has no line end.
 std::string filled(std::string_view text, std::size_t width, std::size_t indent = 0);
 
 /// A help page (Markdown: headings, paragraphs, lists, tables, code) as a terminal shows it: filled to the width,

@@ -29,7 +29,7 @@ Message inline_function_form() {
     return Message("write a function as function(x) return x^2 end");
 }
 
-/// A character that word processors and printed pages put in the place of one that Lua knows.
+/// A character that word processors and printed pages use instead of a character that Lua knows.
 struct ForeignCharacter {
     char32_t character;
     const char* instead;  ///< empty for one that is to be taken out

@@ -12,7 +12,7 @@ const Message* matlab_name_hint(std::string_view name);
 const Message* foreign_member_hint(std::string_view type, std::string_view name);
 /// For a line that Lua cannot read; `near` is the word at which it stopped.
 Message matlab_syntax_hint(const std::string& line, const std::string& near);
-/// For a word that is no variable, where it stands behind the % or # of a comment.
+/// A hint for a word that is no variable, if it follows the % or # of a comment.
 Message comment_hint(const std::string& line, const std::string& name);
 /// Whether a line begins as a comment does in other languages.
 bool begins_foreign_comment(const std::string& line);

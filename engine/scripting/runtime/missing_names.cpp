@@ -16,7 +16,7 @@ namespace {
 
 char library_key;  // its address is the registry key
 
-/// Activation record of the innermost line of a script.
+/// The activation of the innermost line of a script.
 bool script_caller(lua_State* L, lua_Debug& caller) {
     for (int level = 1; lua_getstack(L, level, &caller); ++level) {
         lua_getinfo(L, "l", &caller);
@@ -48,7 +48,7 @@ std::string key_text(lua_State* L, int index) {
     return luaL_typename(L, index);
 }
 
-/// __index of the table of functions: the script read a name that nobody defined.
+/// __index of the table of functions: the script read an undefined name.
 int unknown_global(lua_State* L) {
     Message message;
     {

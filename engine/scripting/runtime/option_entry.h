@@ -32,7 +32,7 @@ constexpr MessageId<> about(MessageId<> description) {
     return description;
 }
 
-/// What an option has besides its name and description.
+/// The properties of an option other than its name and description.
 struct OptionFacts {
     const char* initial = "";  ///< the default as scripts write it; that of the member, where it is empty
     const char* unit = "";
@@ -61,7 +61,7 @@ using OptionTable = std::span<const OptionEntry>;
 using OptionTables = std::span<const OptionTable>;
 inline constexpr OptionTables kNoOptions;
 
-/// One argument of a function besides its options, for help pages and forms.
+/// One argument of a function that is not an option, for help pages and forms.
 struct ArgumentEntry {
     const char* name;  ///< as in the signature
     ValueKind kind;

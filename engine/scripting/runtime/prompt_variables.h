@@ -5,9 +5,10 @@
 
 namespace dynlab::inline scripting {
 
-/// The variables of the prompt. Every statement is a chunk of its own, so a `local` of one would be gone in the next;
-/// names declared so live in a table before the globals instead, which all statements (and their functions) share. Like
-/// a local, such a name may be that of one of dynlab's functions. All other names are globals as in any script.
+/// The variables of the prompt. Every statement is a separate chunk, so a `local` of one statement would be gone in the
+/// next. Names declared as local are therefore kept in a table that Lua searches before the globals; all statements
+/// (and their functions) share it. Like a local, such a name may be that of one of dynlab's functions. All other names
+/// are globals as in any script.
 
 /// Makes that table, empty. Call once, after the library was sealed.
 void make_prompt_variables(lua_State* L);

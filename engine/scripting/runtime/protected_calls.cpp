@@ -5,7 +5,7 @@
 namespace dynlab::inline scripting {
 namespace {
 
-/// Stack: handler, true, results or the error. `skipped` values stand before the results.
+/// Stack: handler, true, results or the error. `skipped` values precede the results.
 int finish_protected_call(lua_State* L, int status, lua_KContext) {
     if (status == LUA_OK || status == LUA_YIELD) return lua_gettop(L) - 1;
     pass_stop_on(L);

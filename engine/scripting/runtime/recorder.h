@@ -37,8 +37,8 @@ class Recorder {
     void follow(const PercentScript& script);
     /// What the run has produced up to here, as finish() would give it; the run goes on.
     RunRecord so_far(const Reader& reader) const;
-    /// Ends the run: names the figures that were made and dropped, with their titles as captions for the reader, and
-    /// hands the record over.
+    /// Ends the run: names the figures that were made and not kept, with their titles as captions for the reader, and
+    /// returns the run results.
     RunRecord finish(const Reader& reader);
 
     void print(const std::string& text);

@@ -44,7 +44,7 @@ std::vector<std::string> names_of(const std::vector<std::string_view>& results) 
     return names.size() > 1 ? names : std::vector<std::string>{};
 }
 
-/// Whether what stands before can be the end of a statement, or the beginning of a block.
+/// Whether the preceding tokens can be the end of a statement, or the beginning of a block.
 bool begins_statement(const std::string& code, const std::vector<LuaToken>& tokens, std::size_t i) {
     if (!begins_line(code, tokens, i)) return false;
     if (i == 0) return true;
@@ -77,8 +77,8 @@ bool next_begins_statement(const std::string& code, const std::vector<LuaToken>&
     return word && begins_line(code, tokens, next) && !tokens[next].is("and") && !tokens[next].is("or");
 }
 
-/// Whether the script has given this name a meaning of its own that holds at the token `place`: a local, a loop's
-/// variable or a parameter in a block that is still open there, or a global before it.
+/// Whether the script has redefined this name at the token `place`: as a local, a loop's variable or a parameter in a
+/// block that is still open there, or as a global before it.
 bool has_own_meaning(const std::string& code, const std::vector<LuaToken>& tokens, std::string_view name,
                      std::size_t place) {
     std::vector<bool> blocks = {false};  // the open ones: whether they define the name

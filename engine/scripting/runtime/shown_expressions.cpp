@@ -53,7 +53,7 @@ bool ends_statement(const std::string& code, const std::vector<LuaToken>& tokens
     return false;
 }
 
-/// A length begins with # right before what it counts; "# text" is somebody's comment.
+/// A length begins with # directly before its operand; "# text" is a comment in another language.
 bool may_begin_expression(const std::vector<LuaToken>& tokens, std::size_t i) {
     if (tokens[i].is("#")) return i + 1 < tokens.size() && tokens[i + 1].begin == tokens[i].end();
     return tokens[i].kind != LuaToken::Kind::kKeyword || tokens[i].is("not") || tokens[i].is("nil") ||
@@ -98,7 +98,7 @@ std::string with_shown_values(const std::string& source) {
             if (next) break;
         }
         if (!next) return source;
-        // Each call must bring Lua further, or the guess was wrong.
+        // Each added call must bring Lua further; otherwise the assumption was wrong.
         const std::optional<std::string> after = reader.error_of(*next);
         const std::size_t line = after ? static_cast<std::size_t>(take_apart(*after).line) : std::string::npos;
         if (after && line < reached) return source;
@@ -137,7 +137,7 @@ constexpr int kMostLooks = 200;  // each may go through the whole source
 std::optional<int> line_with_compared_place(const std::string& source) {
     const std::vector<LuaToken> tokens = lua_tokens(source);
     const auto extreme = [&](std::size_t i) { return tokens[i].is("max") || tokens[i].is("min"); };
-    // The place of the bracket that closes the one at `open`, and whether a comma stands between them.
+    // The place of the bracket that closes the one at `open`, and whether there is a comma between them.
     const auto closing = [&](std::size_t open) {
         int depth = 0;
         bool comma = false;

@@ -7,13 +7,13 @@
 
 namespace dynlab::inline scripting {
 
-/// The source with every expression that stands where a statement belongs made into a call that shows its value, as the
-/// prompt does; one with a semicolon behind it is only evaluated:
+/// Converts every expression at the place of a statement to a call that shows its value, as the prompt does. An
+/// expression followed by a semicolon is only evaluated:
 ///     x + 1        becomes  dynlab.show(x + 1);
 ///     x + 1;       becomes  local _ = x + 1;
-/// An expression begins a line and ends one, or ends before a semicolon or the end of a block; it may go over several
-/// lines. All other text keeps its place and line. A source that Lua can read comes back as it is, and so does one that
-/// stays wrong. `shown`: the functions whose calls show their values, too.
+/// An expression starts at the beginning of a line. It ends with a line, or before a semicolon or the end of a block,
+/// and may extend over several lines. All other text keeps its place and line. Source that Lua can read is returned
+/// unchanged, and so is source that remains invalid. `shown`: functions whose calls also show their values.
 std::string with_shown_expressions(const std::string& source, const ShownCalls& shown);
 
 /// The line in which the rows of matrix{...} are set apart by semicolons, as MATLAB writes them: Lua takes a semicolon

@@ -29,7 +29,7 @@ bool whole_number_key(lua_State* L, int index, lua_Integer first, lua_Integer la
     return lua_isinteger(L, index) && lua_tointeger(L, index) >= first && lua_tointeger(L, index) <= last;
 }
 
-/// What has lines of its own stands below its name.
+/// A value of several lines goes below its name.
 std::string named_entry(const std::string& key, const std::string& value, TextStyle style) {
     const bool below = style.broken_down && !value.starts_with("{") && value.find('\n') != std::string::npos;
     return key + (below ? " =\n" : " = ") + value;
@@ -52,7 +52,7 @@ std::vector<std::string> named_entries(lua_State* L, int table, lua_Integer leng
     return entries;
 }
 
-/// Short entries fill lines, others have lines of their own.
+/// Short entries fill lines; each of the others gets a separate line.
 std::string in_lines(const std::vector<std::string>& entries, std::size_t in_list) {
     std::string text = "{\n", line;
     const auto end_line = [&] {

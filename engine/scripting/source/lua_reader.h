@@ -7,7 +7,7 @@ struct lua_State;
 
 namespace dynlab::inline scripting {
 
-/// Reads Lua text in a state of its own, which runs nothing.
+/// Reads Lua text in a separate state that runs nothing.
 class LuaReader {
   public:
     LuaReader();

@@ -4,7 +4,7 @@
 
 namespace dynlab::inline scripting {
 
-/// A word or sign of Lua text, as the prompt needs it: to find statements and what stands before the cursor.
+/// A word or sign of Lua text, as the prompt needs it: to find statements and the text before the cursor.
 struct LuaToken {
     enum class Kind { kName, kKeyword, kNumber, kString, kSign, kUnfinished };
     Kind kind;

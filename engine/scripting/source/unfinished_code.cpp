@@ -27,7 +27,7 @@ class LineCounter {
     int line_ = 1;
 };
 
-/// How many characters of white space stand before a token on its line; nothing where something else does.
+/// The number of white-space characters before a token on its line; nothing if there is other text.
 std::optional<std::size_t> indent_of(std::string_view source, const LuaToken& token) {
     const std::size_t newline = token.begin == 0 ? std::string_view::npos : source.rfind('\n', token.begin - 1);
     const std::size_t begin = newline == std::string_view::npos ? 0 : newline + 1;

@@ -12,8 +12,8 @@ struct OpenBlock {
     int else_if = 0;  ///< line of the first "else if" in it, which opens a block that elseif does not; 0 without
 };
 
-/// Of a source with too few `end`s: the block that lacks its own, as far as the indents tell. An `end` further to the
-/// left than the line of the block it closes belongs to a block around that; without such a one it is the last block
+/// For a source with too few `end`s: the block that lacks its `end`, according to the indentation. An `end` further to
+/// the left than the line of the block it closes belongs to an outer block; without such an `end`, it is the last block
 /// that is still open.
 std::optional<OpenBlock> block_without_end(std::string_view source);
 

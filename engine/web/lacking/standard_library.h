@@ -33,7 +33,7 @@ inline to_chars_result to_chars(char* first, char* last, double value, chars_for
     return {first + size, errc{}};
 }
 
-/// The whole of first..last as far as it is a decimal number: no blanks, no plus sign, no hexadecimal digits.
+/// Converts the leading decimal number of first..last: no blanks, no plus sign, no hexadecimal digits.
 inline from_chars_result from_chars(const char* first, const char* last, double& value,
                                     chars_format = chars_format::general) {
     const char* at = first;

@@ -3,7 +3,7 @@ const make = (name, kind = "", text = "") => Object.assign(document.createElemen
 const plots = new Map();    // name -> what plot.js draws it from, of this run
 const captions = new Map();
 
-/// A figure's drawing in place of whatever `figure` holds besides its caption; one that is drawn already is renewed.
+/// Replaces all content of `figure` except its caption with the drawing; an existing drawing is updated.
 function drawFigure(figure, name) {
   const drawing = plots.get(name);
   if (!drawing) return;
@@ -67,7 +67,7 @@ function table({ header, rows }) {
   return node;
 }
 
-/// Values, figures and tables that stand in the text below `root`.
+/// Fills values, figures and tables in the text below `root`.
 export function showInText(root, results) {
   for (const node of root.querySelectorAll("span.value[data-name]")) {
     const value = results.values[node.dataset.name];

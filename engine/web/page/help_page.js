@@ -1,4 +1,4 @@
-// Examples of a help page: each can be changed and run. The engine is loaded with the first one that somebody runs.
+// Examples of a help page: each can be changed and run. The engine is loaded when the user runs the first one.
 import { cellEditor } from "./cell_editor.js";
 import { showResults, takeFigures } from "./cell_results.js";
 import { loadCodeMirror } from "./code_mirror.js";
@@ -55,7 +55,7 @@ class Example {
     takeFigures(figures);
     const code = cellIds(`-- %%\n${this.text}`);
     showResults(this.results, Object.keys(results.outputs).length ? Object.keys(results.outputs) : code, results, error?.text);
-    // Figures of a report have no text to stand in here.
+    // Figures of a report have no text here that shows them.
     for (const name of Object.keys(results.figures)) {
       if (this.results.querySelector(`figure[data-figure="${CSS.escape(name)}"]`)) continue;
       const box = make("div");

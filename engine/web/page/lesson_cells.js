@@ -1,5 +1,5 @@
-// The cells of a lesson's page: code cells are editors with what they gave, text cells can be written. They stand for the places of the
-// lesson's script (lesson_script.js).
+// The cells of a lesson's page: code cells are editors with their results, text cells can be edited. They represent the
+// places of the lesson's script (lesson_script.js).
 import { cellEditor } from "./cell_editor.js";
 import { nameFigures, showResults } from "./cell_results.js";
 import { cellIds, withoutSigns, withSigns } from "./lesson_script.js";

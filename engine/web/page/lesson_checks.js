@@ -18,7 +18,7 @@ function item({ about, hint, message, points, earned, tried }) {
   return node;
 }
 
-/// {checks, trouble} of the engine, into `panel`.
+/// Shows the engine's checks, and the error of the script, in `panel`.
 export function showChecks(panel, { checks, trouble }) {
   const list = make("ul", "checks"), tried = checks.filter((check) => check.tried);
   const sum = (key) => shown(tried.reduce((total, check) => total + check[key], 0));

@@ -20,7 +20,7 @@ const make = (name, kind = "", text = "") => Object.assign(document.createElemen
 let work = null, session = null, cells = { all: [], code: [] };
 let results = null, stopped = false, ran = new Map(), error = null;
 
-// ----- what stands above the text
+// ----- above the text
 const bar = make("div"), state = make("span", "", say("engineLoads")), notices = make("div"), panel = make("section");
 Object.assign(bar, { id: "lesson-bar" });
 Object.assign(state, { id: "lesson-state" });
@@ -54,7 +54,8 @@ function tell(...nodes) {
 
 // ----- the run
 const cellOf = (id) => cells.code.find((cell) => cell.id === id) ?? null;
-/// Which of the page's cells shows what the cells of a part give: those that somebody added belong to the one before.
+/// The page's cell that shows the results of a part's cells: results of cells that the user added belong to the
+/// previous cell.
 function showPart(ids, text) {
   let cell = null;
   for (const id of ids) cell = cellOf(id) ?? cell ?? lastShown;

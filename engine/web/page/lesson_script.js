@@ -1,5 +1,5 @@
-// A lesson's script as its page edits it: what stands between the markers of its cells. Put together it is the script again, byte
-// for byte where nothing was changed.
+// A lesson's script as its page edits it: the text between the markers of its cells. The joined parts give the script
+// again, byte for byte if nothing was changed.
 const kMarker = /^\s*--\s*%%/, kText = /^\s*--\s*%%.*\[markdown\]/, kId = /\bid=([\w.-]+)/;
 
 export const isMarker = (line) => kMarker.test(line);
@@ -25,7 +25,8 @@ export function withoutSigns(source) {
 }
 export const withSigns = (text) => text.split("\n").map((line) => (line === "" ? "--" : `-- ${line}`)).join("\n");
 
-/// `original`: the script of the lesson. A place is what stands behind one marker: {marker, text, isText}; the first has none.
+/// `original`: the script of the lesson. A place is the text after one marker: {marker, text, isText}; the first has
+/// none.
 export class LessonScript {
   constructor(original) {
     this.original = original;
@@ -42,7 +43,8 @@ export class LessonScript {
       return { marker, isText: marker !== null && kText.test(marker), source: whole.slice(0, whole.length - blank.length), blank };
     });
   }
-  /// The script with these texts of places, by number, in place of the lesson's own; {text, first: line of each place, from 1}.
+  /// The script with these texts of places, by number, instead of the lesson's own; {text, first: line of each place,
+  /// from 1}.
   compose(texts = new Map()) {
     const pieces = [], first = [];
     let line = 1;

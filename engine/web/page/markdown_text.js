@@ -1,5 +1,5 @@
-// What somebody wrote into a text cell, as far as a page shows it without Pandoc: paragraphs, headings, lists, emphasis, code, values and
-// figures of the run. Formulas stand as they are written.
+// The text of a user's text cell in the form that a page can show without Pandoc: paragraphs, headings, lists,
+// emphasis, code, values and figures of the run. Formulas are shown as source text.
 const make = (name, text = "", kind = "") => Object.assign(document.createElement(name), { textContent: text, ...(kind && { className: kind }) });
 const kInline = /`([^`]+)`\{\.value\}|`([^`]+)`|\*\*([^*]+)\*\*|\*([^*\s][^*]*)\*|(\$[^$]+\$)/g;
 
@@ -42,7 +42,7 @@ function block(text) {
 const piecesOf = (markdown) => markdown.split(/\n\s*\n/).map((text) => text.trim()).filter(Boolean);
 export const blocksOf = (markdown) => piecesOf(markdown).map(block);
 
-/// The same where `before` was set as these nodes: what has not changed keeps its node, as far as each block has one.
+/// The same if `before` was rendered as these nodes: unchanged blocks keep their nodes if each block has one.
 export function changedBlocks(markdown, before, nodes) {
   const old = piecesOf(before), elements = nodes.filter((node) => node.nodeType === Node.ELEMENT_NODE), known = new Map();
   if (old.length === elements.length) old.forEach((text, i) => known.set(text, elements[i]));

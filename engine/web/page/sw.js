@@ -15,7 +15,7 @@ async function listed() {
   return reply;
 }
 
-/// The site's files as the newest list has them, in a cache of their own; what is the same comes from the one before.
+/// The site's files according to the newest list, in a separate cache; unchanged files come from the previous cache.
 async function fill() {
   const reply = await listed(), text = await reply.clone().text(), { version, files } = JSON.parse(text);
   const name = cacheName(version);

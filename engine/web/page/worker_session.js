@@ -74,8 +74,8 @@ export function canRun() {
   }
 }
 
-/// `work()` gives {name, text, language, files: [{name, text | base64}]}: the script as it stands and the folder it lies in.
-/// `news(what)`: of runs and checks.
+/// `work()` returns {name, text, language, files: [{name, text | base64}]}: the current script and its folder.
+/// `news(what)`: called with news of runs and checks.
 export function workerSession({ root, key, work, news }) {
   const engine = new Engine(root);
   let running = false, sliders = {}, reach = "";  // the last cell that was to run; empty: all
@@ -97,7 +97,7 @@ export function workerSession({ root, key, work, news }) {
   const whenIdle = (act, what) => (running ? Promise.resolve(null) : engine.ask(act, what));
 
   return {
-    /// Makes the engine ready before somebody waits for it.
+    /// Prepares the engine before the user needs it.
     prepare: () => engine.begin(),
     get running() { return running; },
 
@@ -110,7 +110,7 @@ export function workerSession({ root, key, work, news }) {
       reach = "";
       return run({ fresh: true });
     },
-    /// The script as far as it has run, with other numbers of its sliders.
+    /// Updates the executed part of the script for other values of its sliders.
     moveSliders(values) {
       sliders = { ...sliders, ...values };
       return run({ until: reach });

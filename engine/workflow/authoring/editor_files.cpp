@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr const char* kStubs = ".dynlab/types.lua";  // nobody's own lines are in it: it is always written again
+constexpr const char* kStubs = ".dynlab/types.lua";  // contains no user's lines: it is always written again
 
 constexpr const char* kEditorConfig = R"(root = true
 

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// SLUG stands for the lesson's name.
+/// SLUG is replaced by the lesson's name.
 constexpr const char* kLesson = R"LUA(-- ---
 -- title: A spring and its stiffness
 -- subtitle: A lesson of your own

@@ -5,10 +5,11 @@
 
 namespace dynlab::inline workflow {
 
-/// Makes a folder with a small lesson that runs and passes `dynlab test-lesson`, to be changed into one's own:
-/// lesson.lua with a worked solution, its record, checks, a script with a typical mistake and one that is right by
-/// another method, hints, and all of it in French as well. The lesson is called like the folder. Returns the files'
-/// names, sorted. Throws EnvironmentError where the folder is there and not empty, or its name is not one for a lesson.
+/// Creates a folder with a small lesson that runs and passes `dynlab test-lesson`, as a starting point for a new
+/// lesson: lesson.lua with a reference solution, its data, checks, a script with a common mistake and one that is
+/// correct by another method, hints, and all of it in French as well. The lesson has the folder's name. Returns the
+/// files' names, sorted. Throws EnvironmentError if the folder exists and is not empty, or its name is not valid for a
+/// lesson.
 std::vector<std::string> make_lesson_skeleton(const std::filesystem::path& folder);
 
 }  // namespace dynlab::inline workflow

@@ -64,7 +64,7 @@ std::string first_line_of(const std::string& text) {
     return text.substr(0, text.find_first_of("\r\n"));
 }
 
-/// Whether the line would begin another cell, or stands for one that would.
+/// Whether the line would begin another cell, or is the escaped form of such a line.
 bool is_escaped_marker(std::string_view line, char sign) {
     const std::size_t signs = std::min(line.find_first_not_of(sign), line.size());
     const std::string_view rest = line.substr(signs);

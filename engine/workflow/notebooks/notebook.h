@@ -23,8 +23,8 @@ inline constexpr const char* kKernelName = "dynlab";
 inline constexpr const char* kKernelTitle = "dynlab (Lua)";
 inline constexpr const char* kKernelLanguage = "lua";
 
-/// The notebook of a script, without outputs or with those of a run (`figures`: names of the record's figures, and the
-/// JSON of the data that a notebook shows for them, as figure_bundle() makes it).
+/// The notebook of a script, without outputs or with those of a run (`figures`: names of the figures of the run
+/// results, and the JSON of the data that a notebook shows for them, as figure_bundle() makes it).
 std::string notebook_of(const PercentScript& script, const RunRecord* record = nullptr,
                         const std::map<std::string, std::string>& figures = {});
 
@@ -33,8 +33,8 @@ struct NotebookScript {
     std::vector<Message> losses;  ///< what a script cannot hold
 };
 
-/// The script that a notebook says. `name` stands for the file in messages. Throws DocumentError for what is not
-/// JSON or no notebook, nbformat before 4, a notebook of another language, or one without cells.
+/// The script that a notebook contains. Messages use `name` as the file's name. Throws DocumentError for text that is
+/// not JSON or no notebook, nbformat before 4, a notebook of another language, or one without cells.
 NotebookScript script_of_notebook(std::string_view json, const std::filesystem::path& name);
 /// Of a file, of at most 64 MB; what is larger is refused.
 NotebookScript read_notebook(const std::filesystem::path& file);

@@ -152,8 +152,8 @@ std::string submit(const Machines& machines, const fs::path& logs, std::vector<s
     return id.front().substr(0, id.front().find(';'));  // a cluster's name may follow
 }
 
-/// Its jobs are in process groups of their own, so Ctrl-C is for it to pass on: at the second SIGTERM it ends them, and
-/// with the connections what they do on other hosts.
+/// The jobs of GNU parallel are in separate process groups, so parallel must pass Ctrl-C on: at the second SIGTERM it
+/// ends them and, with the connections, their work on other hosts.
 ChildResult run_parallel(ChildOptions options) {
     using Clock = std::chrono::steady_clock;
     const SlowEnding slow;
@@ -204,7 +204,7 @@ Machines machines_in(const std::string& text) {
 }
 
 Message submit_to_slurm(const Machines& machines, const WorkInParts& work) {
-    // What a signal ended runs again, at most twice; what ended by itself would fail again.
+    // A job that a signal ended runs again, at most twice; a job that exited with an error would fail again.
     constexpr const char* kScript =
         "#!/bin/sh\nfor try in 1 2 3; do\n  ({})\n  code=$?\n  [ $code -gt 128 ] || exit $code\ndone\nexit $code\n";
     const fs::path logs = fs::absolute(work.folder).lexically_normal();

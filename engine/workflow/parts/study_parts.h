@@ -34,8 +34,8 @@ class StudyParts : public CallsInParts {
     MissingParts missing_;
 };
 
-/// Runs the script as far as there are parts, quietly, and gives those that are missing then. With a part, makes its
-/// share of the first call that is not complete. Throws EnvironmentError with the script's error.
+/// Runs the script quietly until a part is missing, and returns the missing parts. With a part, computes its share of
+/// the first incomplete call. Throws EnvironmentError with the script's error.
 MissingParts run_study_part(const PercentScript& script, std::uint32_t seed, const std::filesystem::path& folder,
                             int count, std::optional<WorkPart> part);
 

@@ -43,7 +43,8 @@ PercentScript page_in_cells(const HelpPage& page) {
     return script;
 }
 
-/// What the example gave, under names of its own. A figure that it reported by name is shown behind the others.
+/// Adds the results of the example, under names with the page's prefix. A figure that the example reported by name is
+/// shown after the others.
 void take_results(const std::string& page, RunRecord run, RunRecord& all) {
     const auto renamed = [&](const std::string& figure) { return replaced(page, ".", "-") + "-" + figure; };
     std::vector<CellOutput>& outputs = all.outputs[page];

@@ -18,8 +18,8 @@ struct HelpExamples {
     RunRecord record;  ///< of all examples: cells by page, figures as "page-figure", without captions
 };
 
-/// Runs the example of every function's page, each by itself as a script of its own, in `folder`. Throws DocumentError
-/// that names the page whose example fails.
+/// Runs the example of every function's page, each as a separate script, in `folder`. Throws DocumentError that names
+/// the page whose example fails.
 HelpExamples run_help_examples(const std::filesystem::path& folder, const Cache& cache);
 
 }  // namespace dynlab::inline workflow

@@ -237,7 +237,8 @@ class SiteMaker {
         write_site_folder(request_.folder, files_);
     }
 
-    /// The engine with the texts that it fetches, all in one folder. CMake has files of its own there.
+    /// Adds the engine with the texts that it fetches, all in one folder. The build's own files of CMake there are left
+    /// out.
     void add_engine() {
         for (const auto& entry : fs::directory_iterator(*request_.engine)) {
             const std::string name = entry.path().filename();

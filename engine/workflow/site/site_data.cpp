@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr int kEveryDigit = 17;
 
-/// The columns of a record of vectors and a sampling time.
+/// The columns of a data set of vectors and a sampling time.
 std::string csv_of(const VariableTable& variables) {
     CsvTable table;
     for (const auto& [name, variable] : variables) {

@@ -62,16 +62,15 @@ struct ShownFigure {
     std::string image, anchor, caption, code;
 };
 
-/// Links of a caption lead to places of its own page: their words stay.
+/// Links of a caption lead to places of the caption's page: only their words stay.
 std::string without_links(std::string html) {
     static const RE2 tag("</?a( [^>]*)?>", RE2::Latin1);
     RE2::GlobalReplace(&html, tag, "");
     return html;
 }
 
-/// The figures of a page, each with the block of code that stands before it.
-/// Where the script of a figure begins: the last cell before it, or on a help page the last example, which is marked
-/// where it can be run.
+/// The place where the script of a figure begins: the last cell before the figure, or on a help page the last example,
+/// which is marked if it can be run.
 std::size_t code_before(const std::string& html, std::size_t figure) {
     for (const char* begin : {"<pre class=\"code\"", "<pre class=\"example", "<pre class=\"sourceCode"})
         if (const std::size_t at = html.rfind(begin, figure); at != std::string::npos) return at;

@@ -12,7 +12,7 @@ SitePage course_page(const std::vector<SitePage>& pages, const std::string& lang
 /// All functions by area, with their summaries.
 SitePage functions_page(const std::vector<SitePage>& pages);
 
-/// The figures of the English pages, each with the code that stands before it, page by page.
+/// The figures of the English pages, each with the preceding code, page by page.
 SitePage gallery_page(const std::vector<SitePage>& pages);
 
 }  // namespace dynlab::inline workflow

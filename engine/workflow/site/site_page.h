@@ -43,7 +43,7 @@ std::string text_in_html(const std::string& html);
 /// The headings h1 to h3 that have an id: id and text.
 std::vector<std::pair<std::string, std::string>> headings_in(const std::string& html);
 
-/// Moves pictures that are in the page as data into files of their own, named after their content; `root` is the way to
+/// Moves pictures that are in the page as data into separate files, named after their content; `root` is the path to
 /// the top of the site. They are loaded when they come into view.
 std::string with_pictures_apart(const std::string& html, const std::string& root, SiteFiles& files);
 

@@ -97,7 +97,7 @@ bool says_its_subject(const HelpPage& page) {
            page.text.find("\n\nsubject: ") != std::string_view::npos;
 }
 
-/// A guide under the title of what it is about; its name stands in the command that shows it.
+/// A guide under the title of its subject; the command that shows the guide contains its name.
 MarkdownText headed_guide(const HelpPage& page, const MarkdownText& text) {
     if (!says_its_subject(page)) return text;
     MarkdownText headed;

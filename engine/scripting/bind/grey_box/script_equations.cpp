@@ -109,7 +109,7 @@ class Tracer {
         push_traced(Operation::kInput, 0, true);
     }
 
-    /// Calls what stands below the arguments; false, with the reason, when it fails.
+    /// Calls the function below its arguments on the stack; false, with the reason, if it fails.
     bool called(int arguments, int results) {
         if (lua_pcall(L_, arguments, results, 0) == LUA_OK) return true;
         pass_stop_on(L_);

@@ -22,7 +22,7 @@ struct ScriptEquations {
     std::shared_ptr<ScriptFunction> rates, outputs, initial;
     bool of_matrices = false;
     std::vector<InitialEntry> initial_entries;  ///< unless `initial` is given
-    Index inputs = -1;                          ///< -1 where nobody said how many
+    Index inputs = -1;                          ///< -1 if not given
     bool inputs_indexed = false;                ///< u is given as a table though there is one
     Index output_count = 0;                     ///< of h, once it was called
 };

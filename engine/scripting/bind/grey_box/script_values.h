@@ -69,7 +69,7 @@ Vector numbers_on_top(lua_State* L, const RequestedValues& requested);
 
 // ---- matrices of a function of p
 
-/// A matrix of entries that are read one by one: a table of rows, a matrix, or a number.
+/// A matrix that is read entry by entry: a table of rows, a matrix, or a number.
 template <class Value>
 struct Entries {
     Index rows = 0, columns = 0;

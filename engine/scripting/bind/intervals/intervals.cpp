@@ -69,7 +69,7 @@ const Model& output_error_argument(const Call& call, int index) {
     return *model;
 }
 
-/// How the record begins is not kept with a model: it is found again as compare does.
+/// A model does not contain the initial state of the data: the function estimates it again as compare does.
 FittedOutput fitted_argument(const Call& call, int index, const IdData& data, const CompareOptions& options) {
     const Model& model = output_error_argument(call, index);
     FittedOutput fitted;
@@ -90,7 +90,7 @@ FittedOutput fitted_argument(const Call& call, int index, const IdData& data, co
     return fitted;
 }
 
-/// The study as histograms have it, with the estimate in the place of the truth.
+/// The study in the form that histograms take, with the estimate as the true value.
 MonteCarlo as_study(const Bootstrap& found, int runs) {
     MonteCarloResult result;
     result.label = "bootstrap";
