@@ -55,7 +55,7 @@ fs::path shared_folder_of(const fs::path& program) {
     }
     throw EnvironmentError(
         "data sets and lessons not found: neither in {} nor in a folder above {}. Set DYNLAB_HOME to the folder that "
-        "contains data, lessons and report_templates",
+        "contains the subfolders data, lessons and report_templates",
         installed.string(), program.string());
 }
 
@@ -82,7 +82,10 @@ namespace {
 fs::path installed_folder() {
     if (const char* home = std::getenv("DYNLAB_HOME"); home && *home) {
         if (is_folder(fs::path(home) / "data")) return home;
-        throw EnvironmentError("DYNLAB_HOME is {}, but that folder has no subfolder data", home);
+        throw EnvironmentError(
+            "DYNLAB_HOME is {}, but that folder has no subfolder 'data'. Set DYNLAB_HOME to the folder that contains "
+            "the subfolders data, lessons and report_templates",
+            home);
     }
     return shared_folder_of(running_program());
 }

@@ -81,7 +81,7 @@ class BranchingRun {
         try {
             record = received_record(own.read_end.get());
         } catch (const EnvironmentError&) {
-            record.error = RecordedError{Message("the script ended its process")};
+            record.error = RecordedError{Message("the process of the script exited before the run was complete")};
         }
         copy.wait();
         return cbor_of(record);

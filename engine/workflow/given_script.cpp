@@ -24,9 +24,9 @@ constexpr const char* kScriptOfFolder = "analysis.lua";
 /// What lies beside scripts and is given in their place. Scripts may have any other ending, or none.
 Message kind_of(const std::string& ending) {
     static const std::pair<std::vector<std::string>, Message> kKinds[] = {
-        {{".md"}, Message("a Markdown text")},
-        {{".tex"}, Message("a LaTeX text")},
-        {{".txt"}, Message("a plain text")},
+        {{".md"}, Message("a Markdown file")},
+        {{".tex"}, Message("a LaTeX file")},
+        {{".txt"}, Message("a text file")},
         {{".pdf"}, Message("a PDF")},
         {{".html"}, Message("a web page")},
         {{".docx", ".odt"}, Message("a document")},
@@ -61,7 +61,7 @@ Message why_no_script(const fs::path& given, const std::string& command) {
         return Message("{} is {}: give a script (.lua) or a notebook (.ipynb)", name, kind);
     if (in_small_letters(name) == "report.md") kind = Message("the report's text");
     if (in_small_letters(name) == "report.pdf") kind = Message("the report's PDF");
-    return Message("{} is {}: give the folder, dynlab {} {}", name, kind, command, shell_word(folder.string()));
+    return Message("{} is {}: give the folder, as in dynlab {} {}", name, kind, command, shell_word(folder.string()));
 }
 
 Message nearly_called(const fs::path& folder, const std::string& name) {
@@ -91,9 +91,9 @@ fs::path meant_script(const fs::path& given) {
     if (fs::exists(script)) return script;
     const Message near = nearly_called(folder_around(script), script.filename().string());
     if (folder && near.empty())
-        throw EnvironmentError("the file {} is missing in the folder {}", kScriptOfFolder, given.string());
+        throw EnvironmentError("the file {} is missing from the folder {}", kScriptOfFolder, given.string());
     if (folder)
-        throw EnvironmentError("the file {} is missing in the folder {}, {}", kScriptOfFolder, given.string(), near);
+        throw EnvironmentError("the file {} is missing from the folder {}, {}", kScriptOfFolder, given.string(), near);
     if (!near.empty()) throw EnvironmentError("file not found: {}, {}", given.string(), near);
     return script;  // the reader of the script reports any problem
 }

@@ -152,8 +152,9 @@ ReportRequest report_of_script(const PercentScript& script, const fs::path& outp
     const ScriptHeader& header = request.script.header;
     request.template_file = template_named(header.template_name);
     if (!fs::is_regular_file(request.template_file)) {
-        throw DocumentError(Place{script.file}, Message("unknown template '{}'; searched in {}", header.template_name,
-                                                        request.template_file.parent_path().string()));
+        throw DocumentError(Place{script.file},
+                            Message("unknown template '{}'; dynlab searched {}", header.template_name,
+                                    request.template_file.parent_path().string()));
     }
     // A template to be written in shows nothing of a script alone.
     if (!shows_cells(read_template(request.template_file))) request.template_file = template_named("lesson");

@@ -128,7 +128,7 @@ TEST_F(own_course, texts_with_faults_are_named_with_file_and_line) {
              {"lesson.lua", "local stiffness = 1/compliance", "local stiffness = 1/complaince",
               "lesson.lua:32: unknown function or variable 'complaince'; did you mean 'compliance'?"},
              {"lesson.lua", "-- BEGIN SOLUTION", "-- BEGIN SOLUTIONS", "lesson.lua:30: "},
-             {"lesson.lua", "answer(\"noise\", ", "print(", "lesson.lua:9: the answer \"noise\" is never submitted"},
+             {"lesson.lua", "answer(\"noise\", ", "print(", "lesson.lua:9: the script never submits the answer \"noise\""},
              {"checks.lua", "points = 3,", "points = 3", "checks.lua:5: "},
              {"checks.lua", "near(a.stiffness, 1", "naer(a.stiffness, 1",
               "checks.lua:6: unknown function or variable 'naer'"},

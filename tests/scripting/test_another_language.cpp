@@ -50,7 +50,7 @@ TEST_F(another_language, is_that_of_errors_where_they_are_read) {
 
 TEST_F(another_language, messages_without_a_translation_are_english) {
     EXPECT_THAT(run("srivc(1)", {}, "de").error->text({catalog_of("de")}),
-                HasSubstr("must be an iddata, but 1 was given"));
+                HasSubstr("must be an iddata object, but 1 was given"));
 }
 
 TEST_F(another_language, is_one_that_lessons_may_be_in) {

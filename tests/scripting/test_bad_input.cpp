@@ -168,8 +168,8 @@ TEST(bad_input, data_are_checked_when_they_are_made) {
         {"iddata(y, u, 0)", "the sampling time must be a positive number of seconds, but it is 0"},
         {"iddata(y, u, -1)", "the sampling time must be a positive number of seconds, but it is -1"},
         {"iddata(y, u, 0/0)", "the sampling time must be a positive number of seconds, but it is NaN"},
-        {"iddata({1, 2, 3}, {1, 0, 1}, nil, {SamplingInstants = {0, 2, 1}})", "instant 3 is 1 after 2"},
-        {"iddata({1, 2, 3}, {1, 0, 1}, nil, {SamplingInstants = {0, 2, 2}})", "instant 3 is 2 after 2"},
+        {"iddata({1, 2, 3}, {1, 0, 1}, nil, {SamplingInstants = {0, 2, 1}})", "instant 3 is 1 and the previous instant is 2"},
+        {"iddata({1, 2, 3}, {1, 0, 1}, nil, {SamplingInstants = {0, 2, 2}})", "instant 3 is 2 and the previous instant is 2"},
         {"iddata({1, 2, 3}, {1, 0, 1}, nil, {SamplingInstants = {0, 2}})", "3 samples but the time vector has 2"},
         {"iddata({1, 2}, {1}, 1)", "the output has 2 samples but the input has 1"},
         {"iddata({}, {}, 1)", "must have rows or columns, but the table is empty"},
@@ -193,8 +193,8 @@ TEST(bad_input, every_method_refuses_data_it_cannot_use) {
         {"iddata(5 + 0.1*e, 2*ones(N), 0.05)", excitation},
         {"iddata(3*ones(N), u, 0.05)", AnyOf(HasSubstr("output never changes"), HasSubstr("not a step"))},
         {"iddata(y, nil, 0.05)", HasSubstr("input")},
-        {"y", HasSubstr("must be an iddata, but a vector of 504 values was given")},
-        {"G", HasSubstr("must be an iddata, but a model was given")},
+        {"y", HasSubstr("must be an iddata object, but a vector of 504 values was given")},
+        {"G", HasSubstr("must be an iddata object, but a model was given")},
     };
     for (const auto& [data, sentence] : kCases)
         for (const auto& [name, calls] : dynamic_methods())
@@ -290,8 +290,8 @@ TEST(bad_input, models_of_the_wrong_kind_are_refused) {
         {"compare(iddata(y, u, 0.1), D)", "the discrete-time model has Ts = 0.05 s"},
         {"compare(d, tf({1, 0, 0}, {1, 1}))", "an improper model cannot be simulated"},
         {"fit(d, 'a')", "must be a model"},
-        {"bode(d)", "must be a model, but an iddata was given"},
-        {"present(d)", "must be a model, but an iddata was given"},
+        {"bode(d)", "must be a model, but an iddata object was given"},
+        {"present(d)", "must be a model, but an iddata object was given"},
         {"step_construction(P)", "must be a model returned by step_first_order, step_second_order or step_delayed"},
         {"crossvalidate(d, P)", "must be a function of a data object, but a model was given"},
         {"d2c(P)", "the model is already a continuous-time model"},

@@ -128,7 +128,7 @@ TEST(lint, compares_answers_with_the_header) {
     const auto reported = [&](const std::string& code) { return all_of(lint_script(header + code, "a.lua")); };
     EXPECT_EQ(reported("answer(\"gain\", 1)\nanswer('G', tf({1}, {1, 1}))\n"), "");
     EXPECT_THAT(reported("answer(\"gain\", 1)\n"),
-                HasSubstr("5:6: unused-answer: the answer \"G\" is never submitted"));
+                HasSubstr("5:6: unused-answer: the script never submits the answer \"G\""));
     EXPECT_THAT(reported("answer(\"gian\", 1)\nanswer(\"G\", tf({1}, {1, 1}))\n"),
                 testing::AllOf(HasSubstr("7:8: unknown-answer"), HasSubstr("did you mean \"gain\"?"),
                                HasSubstr("4:6: unused-answer")));

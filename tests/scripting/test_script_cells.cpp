@@ -140,7 +140,7 @@ TEST(script_cells, handles_that_cannot_move_say_why) {
              {"{x = 1, y = 2}", "x or y of a handle must be a function of the slider value"},
              {"{x = 1}", "a handle needs y = number, or y = function(slider value) and y_slider = \"NAME\""},
              {"{x = 1, x_slider = 'k', y = 1}", "a handle needs x = number, or x = function"},
-             {"{x = abs, y = 1}", "'x' is a function: x_slider = \"NAME\" must name its slider"},
+             {"{x = abs, y = 1}", "'x' is a function, so the option x_slider = \"NAME\" must name its slider"},
              {"{x = abs, x_slider = 'l', y = 1}", "the slider \"l\" does not exist yet"},
              {"{x = math.abs, x_slider = 'k', y = 1}",
               "the function 'x' of the handle must be monotonic for the slider \"k\" from -1 to 2"},
@@ -221,8 +221,8 @@ TEST(script_cells, show_curves_as_described) {
               "lesson.lua:1: plot: a string is the name of the curve; for the style \"--\" use {style = \"points\"} or "
               "{dash = 1}");
     EXPECT_EQ(test::error_of("save(plot({1, 2}, {1, 2}), '/etc/x.pdf')"),
-              "lesson.lua:1: save: '/etc/x.pdf' is outside the script's folder and the output folder; scripts write "
-              "only there");
+              "lesson.lua:1: save: '/etc/x.pdf' is outside the script's folder and the output folder; scripts can write "
+              "only to these folders and their subfolders");
 }
 
 }  // namespace test_script_cells

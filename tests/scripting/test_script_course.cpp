@@ -136,7 +136,7 @@ TEST(script_course, takes_short_curve_names_but_no_line_specifications) {
 TEST(script_course, counts_samples_and_channels_in_whole_numbers) {
     const std::string data = "local d = iddata(zeros(5), ones(5), 1) ";
     EXPECT_EQ(error_of(data + "print(d[{1.5, 3}])"),
-              "lesson.lua:1: samples and channels must be whole numbers, but 1.5 was given");
+              "lesson.lua:1: sample and channel numbers must be whole numbers, but 1.5 was given");
     EXPECT_NE(error_of(data + "d:select({1.7})").find("but 1.7 was given"), std::string::npos);
 }
 

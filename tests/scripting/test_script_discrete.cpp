@@ -64,7 +64,7 @@ TEST(script_discrete, orders_are_explained) {
     EXPECT_THAT(refusal("oe(data, {2, 'x', 1})"), HasSubstr("nf is the string \"x\""));
     EXPECT_THAT(refusal("oe(data, {2, {1, 'x'}, 1})"), HasSubstr("nf has the string \"x\""));
     EXPECT_THAT(refusal("oe(data)"), HasSubstr("it is missing"));
-    EXPECT_THAT(refusal("arx(data, {{1, 2}, 1, 1})"), HasSubstr("na must be one number of poles"));
+    EXPECT_THAT(refusal("arx(data, {{1, 2}, 1, 1})"), HasSubstr("na, the number of poles, must be one value"));
     EXPECT_THAT(refusal("oe(data, {0, 2, 1})"), HasSubstr("nb, the number of coefficients of B, must be between 1"));
     EXPECT_THAT(refusal("oe(data, {2, 2, 1}, {Offst = 'none'})"), HasSubstr("did you mean 'Offset'?"));
     EXPECT_THAT(refusal("oe(data, {2, 2, 1}, {InitialState = 'rest'})"),

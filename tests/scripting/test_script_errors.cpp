@@ -171,7 +171,7 @@ TEST(script_errors, name_the_line_where_something_is_missing) {
         {"local function f(x)\n  while x > 1 do\n    x = x/2\n  return x\nend\nlocal y = f(3)\n" + below,
          "lesson.lua:2: the 'while' of line 2 has no 'end'"},
         {"if 1 > 2 then\n  print(1)\nelse if 2 > 1 then\n  print(2)\nend\n" + below,
-         "lesson.lua:3: an 'end' is missing: 'else if' opens a second block; write elseif"},
+         "lesson.lua:3: an 'end' is missing, because 'else if' opens a second block; write elseif"},
         {"for i = 1, 2 do if i > 1 then print(i) end\n" + below, "lesson.lua:1: the 'for' of line 1 has no 'end'"},
         {"local x = 1 +\n" + below, "lesson.lua:1: the statement is incomplete at the end of the cell"},
         {"local v = {1, 2,\n" + below, "lesson.lua:1: the statement is incomplete at the end of the cell"},
@@ -204,11 +204,11 @@ TEST(script_errors, say_what_habits_of_other_languages_lead_to) {
          "lesson.lua:1: arithmetic with a string is not possible; use two dots to join strings and numbers: \"a = \" "
          ".. x"},
         {"local d = iddata(randn(9), randn(9), 1)\nprint(#d)",
-         "lesson.lua:2: the variable 'd' is an iddata, so the operator # cannot count its elements; data.N is the "
+         "lesson.lua:2: the variable 'd' is an iddata object, so the operator # cannot count its elements; data.N is the "
          "number of "
          "samples"},
         {"local d = iddata(randn(9), randn(9), 1)\nd.split(0.6)",
-         "lesson.lua:2: split: argument 1 (data) must be an iddata, but 0.6 was given; a method is called with a "
+         "lesson.lua:2: split: argument 1 (data) must be an iddata object, but 0.6 was given; a method is called with a "
          "colon: "
          "object:split(...)"},
         {"randn(20):range(10)", "lesson.lua:1: range: argument 2 (last) is missing; it must be a whole number"},

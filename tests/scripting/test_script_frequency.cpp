@@ -128,7 +128,7 @@ TEST(script_frequency, mistakes_are_reported_in_sentences) {
         {"coe(idfrd({{1, 2}}, {3}), {1, 2, 0})",
          "the response must have at least as many frequencies as parameters (3), but has 1"},
         {"coe(F, {1, 2, 0}, {Offset = 'estimate'})", "unknown option 'Offset'"},
-        {"ivsvf(F, {2, 1, 0}, 2)", "must be an iddata, but"},
+        {"ivsvf(F, {2, 1, 0}, 2)", "must be an iddata object, but"},
         {"lssvf(F, {2, 1, 0}, -1)", "cutoff frequency"},
         {"idfrd(c2d(G0, 0.1), w*20)", "frequencies must not exceed pi/Ts = 31.416 rad/s"},
         {"idfrd(c2d(G0, 0.1), w, {Ts = 0.2})", "but the model has 0.1 s"},

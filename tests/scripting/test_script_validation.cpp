@@ -225,7 +225,7 @@ TEST(script_validation, fit_compare_and_present_state_the_offset_that_they_remov
                                       "print('plain', 100*(1 - 5*math.sqrt(#u)/norm(x - mean(x))))");
     std::smatch found;
     const std::regex note(
-        "^fit: an estimated offset of 5 V was removed; without this offset, the fit is (-[0-9.]+) %\\. To choose, set "
+        "^fit: an estimated offset of 5 V was removed; if the offset is not removed, the fit is (-[0-9.]+) %\\. To choose, set "
         "Offset to \"estimate\" or \"none\"\\.\nplain\t(-[0-9.]+)\n$");
     ASSERT_TRUE(std::regex_match(noted, found, note)) << noted << "once a line";
     EXPECT_NEAR(std::stod(found[1]), std::stod(found[2]), 0.1);

@@ -105,8 +105,8 @@ TEST(script_vectors, give_and_take_elements) {
     EXPECT_EQ(error_of("local v = vector{1, 2, 3}\nprint(v[1.5])"),
               "lesson.lua:2: v[1.5]: the index of an element must be a whole number from 1 to 3");
     EXPECT_EQ(error_of("local v = vector{1, 2, 3}\nv[4] = 1"),
-              "lesson.lua:2: v[4] does not exist: v has 3 elements, and its length is fixed; zeros(n) creates a vector "
-              "of length n, and vector{v, x} appends x to v");
+              "lesson.lua:2: v[4] does not exist: v has 3 elements, and its length is fixed. Use zeros(n) to create a vector "
+              "of length n, or vector{v, x} to append x to v");
     EXPECT_EQ(error_of("local v = vector{1, 2, 3}\nv:range(2, 4)"),
               "lesson.lua:2: range: the elements 2 to 4 do not exist: v has the elements 1 to 3");
     EXPECT_EQ(error_of("local s = 'v = ' .. vector{1}"),
@@ -185,7 +185,7 @@ TEST(script_vectors, form_matrices) {
     EXPECT_EQ(error_of("local x = eye(2)[1]"),
               "lesson.lua:1: write an element of a matrix as A[{i, j}], a row as A:row(i), and a column as A:col(j), "
               "not as A[1]");
-    EXPECT_EQ(error_of("eye(2):at(3, 1)"), "lesson.lua:1: at: row 3 does not exist: there are 1 to 2");
+    EXPECT_EQ(error_of("eye(2):at(3, 1)"), "lesson.lua:1: at: row 3 does not exist: the valid numbers are 1 to 2");
 }
 
 TEST(script_vectors, print_short_forms) {

@@ -81,9 +81,10 @@ void check_transfer_data(const std::string& method, const IdData& data, const Tr
             alone ? Message("{}: the input never changes and the output does not start from rest, so the data contain "
                             "no excitation: vary the input, for instance with prbs",
                             method)
-                  : Message("{}: the input {} never changes and the output does not start from rest, so its effect "
-                            "cannot be distinguished from an offset: exclude it with data:select, or vary it",
-                            method, data.input_names[static_cast<std::size_t>(input)]));
+                  : Message(
+                        "{}: the input {} never changes and the output does not start from rest, so the effect of the "
+                        "input cannot be distinguished from an offset. Exclude this input with data:select, or vary it",
+                        method, data.input_names[static_cast<std::size_t>(input)]));
     }
     check_outputs(method, data);
 }

@@ -24,7 +24,7 @@ void require_rich_inputs(const std::string& method, const MatrixView& R, const P
         if (solve_least_squares(columns, Vector::Zero(R.rows())).condition_number < kAmbiguousCondition) continue;
         throw InvalidArgument(
             "{}: the input {} is not persistently exciting enough to determine nb = {} (a constant or a single sine is "
-            "not enough): excite the system with an input that changes more, or decrease nb",
+            "not enough). Excite the system with a richer input, such as a PRBS, or decrease nb",
             method, data.input_names[input], plural(orders.nb[input], "{} coefficient", "{} coefficients"));
     }
 }

@@ -110,8 +110,8 @@ TransferFunction exact_d2c(const TransferFunction& G, Hold hold) {
     for (const Complex& pole : discrete_poles)
         if (pole.imag() == 0 && pole.real() <= 0)
             throw InvalidArgument(
-                "d2c: the pole z = {} does not correspond to a continuous-time pole of this order. With zoh and foh, "
-                "no pole may be on the negative real axis or at zero; noise, or too many poles, can cause this",
+                "d2c: the pole z = {} has no equivalent in a continuous-time model of the same order. With zoh and "
+                "foh, no pole may be at zero or on the negative real axis. Noise or too many poles can cause this pole",
                 pole.real());
     // The discrete numerator is linear in the continuous one: solve for its coefficients, with time in samples.
     const Vector den = polynomial_from_roots(discrete_poles.array().log().matrix());

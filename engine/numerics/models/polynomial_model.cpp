@@ -45,8 +45,8 @@ void check_orders(const PolynomialOrders& orders) {
 
 void check_list(const std::vector<int>& list, std::size_t inputs, const std::string& name) {
     if (list.size() == inputs) return;
-    throw InvalidArgument("{} needs one value for each input: nb has {}, but {} has {}", name, inputs, name,
-                          list.size());
+    throw InvalidArgument("{} needs one value for each input: the length of nb is {}, but the length of {} is {}", name,
+                          inputs, name, list.size());
 }
 
 void append_names(std::vector<std::string>& names, const char* letter, int first, int count,

@@ -84,7 +84,7 @@ StateSpace to_state_space(const TransferFunction& G) {
 
 TransferFunction to_transfer_function(const StateSpace& system, Index output, Index input) {
     if (output < 0 || output >= system.C.rows() || input < 0 || input >= system.B.cols())
-        throw InvalidArgument("state space: the system has no output {} from input {}; it has {} and {}", output + 1,
+        throw InvalidArgument("state space: output {} or input {} does not exist; the system has {} and {}", output + 1,
                               input + 1, plural(system.C.rows(), "{} output", "{} outputs"),
                               plural(system.B.cols(), "{} input", "{} inputs"));
     const Vector den = polynomial_from_roots(balanced_eigenvalues(system.A));

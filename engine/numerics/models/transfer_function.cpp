@@ -123,8 +123,8 @@ TransferFunction operator+(const TransferFunction& a, const TransferFunction& b)
         const double Ts = common_sampling_time(a, b), common = std::min(a.delay(), b.delay());
         if (Ts > 0) return with_later_poles(a, Ts, common) + with_later_poles(b, Ts, common);
         throw InvalidArgument(
-            "transfer functions with the delays {} s and {} s cannot be added: the sum is not a rational function; "
-            "approximate a delay with pade(G, n)",
+            "transfer functions with the delays {} s and {} s cannot be added: the sum is not a rational function. "
+            "Approximate a delay with pade(G, n)",
             a.delay(), b.delay());
     }
     const Vector num = add(multiply(a.num(), b.den()), multiply(b.num(), a.den()));

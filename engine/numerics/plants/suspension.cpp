@@ -18,7 +18,7 @@ void SuspensionParameters::validate() const {
         throw InvalidArgument("The step height of the suspension must be finite and nonzero");
     if (damping * damping >= 4 * stiffness * mass)
         throw InvalidArgument(
-            "The damping of the suspension must be less than 2 sqrt(stiffness mass); otherwise, the suspension does "
+            "The damping of the suspension must be less than 2*sqrt(stiffness*mass); otherwise, the suspension does "
             "not oscillate");
 }
 

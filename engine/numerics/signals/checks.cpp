@@ -144,8 +144,9 @@ void check_instants(const std::string& caller, const VectorView& t) {
         if (!std::isfinite(t(k)))
             throw InvalidArgument("{}: instant {} of the time vector is not a finite number", caller, k + 1);
         if (k > 0 && t(k) <= t(k - 1))
-            throw InvalidArgument("{}: the time vector must be increasing, but instant {} is {} after {}", caller,
-                                  k + 1, significant(t(k), 9), significant(t(k - 1), 9));
+            throw InvalidArgument(
+                "{}: the time vector must be increasing, but instant {} is {} and the previous instant is {}", caller,
+                k + 1, significant(t(k), 9), significant(t(k - 1), 9));
     }
 }
 

@@ -195,8 +195,10 @@ std::pair<IdData, IdData> IdData::split(double fraction) const {
     const Index count = only_experiment(*this, "split").y.rows();
     const double requested = std::round(fraction * static_cast<double>(count));
     if (!(requested >= 1) || !(requested < static_cast<double>(count)))
-        throw InvalidArgument("split: the fraction must leave samples in both parts of the {}, but it is {}", count,
-                              fraction);
+        throw InvalidArgument(
+            "split: the fraction must leave at least one sample in each part of the data (number of samples: {}), but "
+            "it is {}",
+            count, fraction);
     const Index first_part = static_cast<Index>(requested);
     return {range(1, first_part), range(first_part + 1, count)};
 }

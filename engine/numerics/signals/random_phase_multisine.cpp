@@ -98,7 +98,9 @@ RandomPhaseMultisine random_phase_multisine(Index period, const RandomPhaseOptio
     options.validate(period);
     std::vector<double> lines = chosen_lines(period, options), detection;
     if (options.detection > 0) draw_detection(options.detection, lines, detection);
-    if (lines.empty()) throw InvalidArgument("multisine: no line remains to be excited");
+    if (lines.empty())
+        throw InvalidArgument(
+            "multisine: no line remains to be excited; with option 'odd', specify at least one odd line");
     RandomPhaseMultisine result;
     result.lines = as_vector(lines), result.detection = as_vector(detection);
     result.u = sum_of_cosines(period, result.lines, 2 * std::numbers::pi * phases.uniform(result.lines.size()));

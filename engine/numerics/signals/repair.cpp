@@ -86,7 +86,7 @@ class MovingMedian {
 
 RepairedSignal fill_missing(const VectorView& x, const VectorView& t, std::optional<Index> longest, FillMethod method) {
     if (t.size() > 0 && t.size() != x.size())
-        throw InvalidArgument("fillmissing: the signal has {} but the time has {}",
+        throw InvalidArgument("fillmissing: the signal has {} but the time vector has {}",
                               plural(x.size(), "{} sample", "{} samples"),
                               plural(t.size(), "{} instant", "{} instants"));
     check_instants("fillmissing", t);
@@ -100,8 +100,8 @@ RepairedSignal fill_missing(const VectorView& x, const VectorView& t, std::optio
     for (const auto& [first, last] : result.stretches)
         if (last - first + 1 > most)
             throw InvalidArgument(
-                "fillmissing: samples {} to {} are missing, more than {}. For an input that is logged when it changes, "
-                "use {method = \"previous\"}. For an output, use the parts before and after the gap as two "
+                "fillmissing: samples {} to {} are missing, a gap of more than {}. For an input that is logged when it "
+                "changes, use {method = \"previous\"}. For an output, use the parts before and after the gap as two "
                 "experiments. Alternatively, pass only the measured samples to iddata, with their times as {}. The "
                 "option {longest = {}} allows linear interpolation across the gap",
                 first, last, plural(most, "{} sample", "{} samples"), OptionName{"sampling_instants"},

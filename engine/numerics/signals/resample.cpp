@@ -84,7 +84,7 @@ IdData resample(const IdData& data, Index up, Index down) {
     for (Experiment& experiment : result.experiments) {
         const Index count = resampled_count(experiment.y.rows(), up, down);
         if (count < 2)
-            throw InvalidArgument("resample: fewer than 2 of {} would remain; specify a smaller down",
+            throw InvalidArgument("resample: fewer than 2 of {} would remain; specify a smaller value of 'down'",
                                   plural(experiment.y.rows(), "{} sample", "{} samples"));
         for (Matrix* signals : {&experiment.y, &experiment.u, &experiment.r}) {
             Matrix resampled(count, signals->cols());

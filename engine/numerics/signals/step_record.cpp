@@ -165,7 +165,7 @@ void require_settled(const StepRecord& record) {
     if (!drifts && !swings) return;
     throw InvalidArgument(
         "The response has not settled at the end of the data: it still changes by {} % of its total change, so the "
-        "final level is unknown: record a longer experiment",
+        "final level is unknown. Use data of a longer experiment",
         significant(100 * (drifts ? drift : swing) / change, 6));
 }
 

@@ -22,10 +22,9 @@ constexpr double kSameStep = 1e-9;  // relative difference of two sampling times
 
 void check_proper(const TransferFunction& plant, const TransferFunction& controller) {
     if (!plant.proper())
-        throw InvalidArgument(
-            "closed loop: the plant has {} but only {}; it needs at least as many poles (the derivative term of a PID "
-            "controller needs a filter)",
-            plural(plant.zero_count(), "{} zero", "{} zeros"), plural(plant.pole_count(), "{} pole", "{} poles"));
+        throw InvalidArgument("closed loop: the plant has {} but only {}; it needs at least as many poles as zeros",
+                              plural(plant.zero_count(), "{} zero", "{} zeros"),
+                              plural(plant.pole_count(), "{} pole", "{} poles"));
     if (!controller.proper())
         throw InvalidArgument(
             "closed loop: the controller has {} but only {}; it needs at least as many poles (the derivative term of a "

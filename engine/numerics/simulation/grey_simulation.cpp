@@ -100,7 +100,7 @@ void GreySimulator::write_outputs(const GreyInputs& inputs, Index k, bool sensit
                          at_output_);
     for (Index i = 0; i < outputs_; ++i) {
         if (!std::isfinite(at_output_.values[i]))
-            throw SimulationBreakdown("At t = {} output {} of the model is {}", inputs.t[k], i + 1,
+            throw SimulationBreakdown("At t = {}, output {} of the model is {}", inputs.t[k], i + 1,
                                       at_output_.values[i]);
         result.y(k, i) = at_output_.values[i];
         if (!sensitivities) continue;
@@ -118,7 +118,7 @@ void GreySimulator::set_linear_steps(double h) {
     for (Index i = 0; i < n; ++i)
         if (!system.value.A.row(i).allFinite() || !B.row(i).allFinite())
             throw SimulationBreakdown(
-                "With these parameters a coefficient in the derivative of the state {} is not a finite number. Check "
+                "With these parameters, a coefficient in the derivative of the state {} is not a finite number. Check "
                 "for a division by zero or a root of a negative number.",
                 model_.state_names[static_cast<std::size_t>(i)]);
     const StepMatrices plain = exact_step(system.value.A, B, h);
@@ -148,7 +148,7 @@ void GreySimulator::advance_linear(const GreyInputs& inputs, Index k, bool sensi
     }
     x_ = (own_.F * x_ + own_.H0 * u0 + own_.H1 * u1).eval();
     if (!x_.allFinite())
-        throw SimulationBreakdown("At t = {} the states become infinite: the linear model is unstable",
+        throw SimulationBreakdown("At t = {}, the states become infinite: the linear model is unstable",
                                   inputs.t[k + 1]);
 }
 

@@ -210,7 +210,7 @@ void SensitivitySolver::refuse_undefined_rate(double t, double h) const {
         for (Index j = 0; j < n_; ++j)
             if (std::isnan(stage.k[j]))
                 throw SimulationBreakdown(
-                    "At t = {} the derivative of the state {} is NaN for {}. Check for a root or a logarithm of a "
+                    "At t = {}, the derivative of the state {} is NaN for {}. Check for a root or a logarithm of a "
                     "negative number; sqrt(max(x, 0)) is defined for every x",
                     t + h * kExplicitNodes[i], names_[static_cast<std::size_t>(j)], states_text(stage.x));
         if (!stage.k.allFinite()) return;
@@ -230,11 +230,11 @@ void SensitivitySolver::break_down(const Interval& over, double t, double h) {
     const MessageList states = states_text(x);
     for (Index i = 0; i < n_; ++i)
         if (!std::isfinite(stages_[0].at.values[i]))
-            throw SimulationBreakdown("At t = {} the derivative of the state {} is {} for {}", t,
+            throw SimulationBreakdown("At t = {}, the derivative of the state {} is {} for {}", t,
                                       names_[static_cast<std::size_t>(i)], stages_[0].at.values[i], states);
     Index fastest = 0;
     (stages_[0].at.values.array().abs() / size_.array().max(1e-300)).maxCoeff(&fastest);
-    throw SimulationBreakdown("At t = {} the state {} becomes infinite: {}", t,
+    throw SimulationBreakdown("At t = {}, the state {} becomes infinite: {}", t,
                               names_[static_cast<std::size_t>(fastest)], states);
 }
 

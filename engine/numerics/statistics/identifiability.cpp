@@ -68,8 +68,8 @@ Ambiguity find_ambiguity(const MatrixView& J, const std::vector<std::string>& na
         }
         const auto size = static_cast<Index>(changes.size());
         found.sentences.push_back(Message(
-            "The data cannot separate {}: the outputs do not change when these parameters change together, {}; fix one "
-            "of them.",
+            "The data cannot separate {}: the outputs do not change when these parameters change together ({}). Fix "
+            "one of them.",
             listed(involved),
             changes_text(involved, Eigen::Map<Vector>(changes.data(), size), Eigen::Map<Vector>(values.data(), size))));
     }

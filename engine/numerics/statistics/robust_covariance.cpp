@@ -16,7 +16,7 @@ void check_sizes(const MatrixView& H, const MatrixView& Z, const VectorView& e, 
                  Index outputs) {
     const Index N = Z.rows(), d = Z.cols();
     if (e.size() != N || H.rows() != d || H.cols() != d)
-        throw InvalidArgument("A robust covariance of {} and {} needs as many residuals, but got {}",
+        throw InvalidArgument("A robust covariance of {} and {} needs one residual for each sample, but got {}",
                               plural(N, "{} sample", "{} samples"), plural(d, "{} parameter", "{} parameters"),
                               e.size());
     if (N <= d)

@@ -107,9 +107,9 @@ bool find_exchange(const FittedRecord& fit, const std::function<bool()>& cancel,
     if (!backward || !(backward->simulation.fit_percent > kExplainsHalf)) return false;
     if (!(100 - backward->simulation.fit_percent < kMuchBetter * (100 - forward))) return false;
     findings.push_back(about(fit, "causality", Weight::kWarning,
-                             Message("A model from {} to {} explains {} %, but a model from {} to {} explains only {} "
-                                     "%: {} seems to respond to {}. The two columns are probably exchanged (the first "
-                                     "argument of iddata is the output), or a controller was active.",
+                             Message("A model from {} to {} has a fit of {} %, but a model from {} to {} has a fit of "
+                                     "only {} %: {} seems to respond to {}. The two columns are probably exchanged "
+                                     "(the first argument of iddata is the output), or a controller was active.",
                                      fit.output(), fit.input(), rounded(backward->simulation.fit_percent, 2),
                                      fit.input(), fit.output(), rounded(forward, 2), fit.input(), fit.output()),
                              forward));

@@ -69,7 +69,7 @@ Matrix cramer_rao_bound(const TransferFunction& system, const VectorView& u, dou
     const ParameterNumbers numbers = numbers_in(names);
     if (theta.size() == 0)
         throw InvalidArgument(
-            "The Cramer-Rao bound is available only for the coefficients a1, .., b0, .. (and Td) of a model with as "
+            "The Cramer-Rao bound is available only for the coefficients a1, ..., b0, ... (and Td) of a model with as "
             "many poles as the system and no fewer zeros");
     if (numbers.delay && numbers.numerator > numbers.poles)
         throw InvalidArgument(

@@ -121,7 +121,7 @@ Message explanation_of(const DelaySearch& search, const IdData& data, bool repor
 
 Message late_input_sentence(const IdData& data) {
     return Message(
-        "{} responds before {} changes, by about one sample: the input was logged late. Shift the input with "
+        "{} responds about one sample before {} changes: the input was logged late. Shift the input with "
         "data:shift(-1).",
         data.output_names.front(), data.input_names.front());
 }

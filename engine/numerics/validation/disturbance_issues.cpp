@@ -199,7 +199,7 @@ bool find_strange_sections(const FittedRecord& fit, DataIssues& findings) {
         about(fit, "nonlinear", Weight::kWarning,
               Message("A linear model follows {} except in samples {}, where its error is more than {} times the "
                       "typical error. Another effect acts there, such as a limit, friction or a disturbance. Inspect "
-                      "these samples, and exclude them with data:discard if they do not belong to the dynamics.",
+                      "these samples, and exclude them with data:discard if they are not typical of the plant.",
                       fit.output(), places, kStrange),
               static_cast<double>(sections.size()));
     issue.sections = std::move(sections);

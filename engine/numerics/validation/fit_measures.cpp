@@ -41,8 +41,8 @@ YoungCriterion yic(const VectorView& y, const VectorView& y_sim, const VectorVie
                    const MatrixView& covariance) {
     require_pair(y, y_sim);
     if (covariance.rows() != theta.size() || covariance.cols() != theta.size())
-        throw InvalidArgument("YIC needs a covariance of {} x {}, but {} x {} was given", theta.size(), theta.size(),
-                              covariance.rows(), covariance.cols());
+        throw InvalidArgument("YIC needs a {} x {} covariance matrix, but a {} x {} matrix was given", theta.size(),
+                              theta.size(), covariance.rows(), covariance.cols());
     YoungCriterion criterion;
     double relative_variances = 0;
     for (Index i = 0; i < theta.size(); ++i) {

@@ -80,9 +80,10 @@ Message model_verdict(const ModelEvidence& model) {
             "then, use robust standard errors.");
     if (model.fit_percent < kMostlyExplained)
         return Message(
-            "The model explains everything that depends on the input (fit {} %). The residual has more than half of "
-            "the standard deviation of the output. Possible causes are another input, a nonlinearity, or a colored "
-            "disturbance; for the latter, use robust standard errors or a method with a noise model.",
+            "The model explains everything that depends on the input (fit {} %). The standard deviation of the "
+            "residuals is more than half the standard deviation of the output. Possible causes are another input, a "
+            "nonlinearity, or a colored disturbance; for the latter, use robust standard errors or a method with a "
+            "noise model.",
             fit);
     return Message(
         "The model describes the dynamics. The disturbance is colored: use robust standard errors or a method with a "

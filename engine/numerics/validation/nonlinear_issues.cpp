@@ -237,8 +237,8 @@ Number in_percent(double effect) {
 DataIssue curve_at_output(const FittedRecord& fit, double effect) {
     if (runs_into_a_limit(slopes_of_curve(fit))) {
         return about(fit, "saturation", Weight::kWarning,
-                     Message("{} flattens while a linear model continues to rise: the signal saturates at a limit "
-                             "below the noise ({} % of its movement is missing). Exclude these ranges with "
+                     Message("{} flattens while a linear model continues to rise: the signal saturates at a limit that "
+                             "is hidden by the noise ({} % of its movement is missing). Exclude these ranges with "
                              "data:discard, or repeat the experiment with a smaller amplitude.",
                              fit.output(), in_percent(effect)),
                      effect);
@@ -246,7 +246,7 @@ DataIssue curve_at_output(const FittedRecord& fit, double effect) {
     return about(fit, "nonlinear", Weight::kWarning,
                  Message("{} is a nonlinear function of a linear model's output (such as a square law or a limit): "
                          "this effect is {} % of the variation of {}, which no linear model can represent. Use a "
-                         "smaller amplitude, or correct the output by the characteristic of its sensor.",
+                         "smaller amplitude, or correct the output with the inverse characteristic of its sensor.",
                          fit.output(), in_percent(effect), fit.output()),
                  effect);
 }
@@ -265,9 +265,9 @@ DataIssue nonlinear_finding(const FittedRecord& fit, Curve kind, double effect) 
         case Curve::kInputPlay:
             return about(
                 fit, "nonlinear", Weight::kWarning,
-                Message("{} acts with backlash or friction, so its effect depends on the direction of movement: this "
-                        "effect is {} % of the variation of {}, which no linear model can represent. Move in one "
-                        "direction only, remove the backlash, or use much larger amplitudes.",
+                Message("{} acts through backlash or friction, so its effect depends on the direction of movement. "
+                        "This effect is {} % of the variation of {}, which no linear model can represent. Use "
+                        "movements in one direction only, remove the backlash, or use much larger amplitudes.",
                         fit.input(), in_percent(effect), fit.output()),
                 effect);
         case Curve::kOutputPlay:
@@ -281,7 +281,7 @@ DataIssue nonlinear_finding(const FittedRecord& fit, Curve kind, double effect) 
             return about(fit, "changing_gain", Weight::kWarning,
                          Message("The gain from {} to {} changes during the experiment: this effect is {} % of the "
                                  "variation of {}. Fit the parts separately (data:range), and identify the cause, such "
-                                 "as a change of the temperature, the load or the supply.",
+                                 "as a change in temperature, load or supply voltage.",
                                  fit.input(), fit.output(), in_percent(effect), fit.output()),
                          effect);
         case Curve::kOutput:

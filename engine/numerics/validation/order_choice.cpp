@@ -171,9 +171,9 @@ Message best_by(OrderCriterion criterion, const OrderCandidate& taken) {
         case OrderCriterion::kFpe:
             return Message("{} have the smallest FPE ({}).", structure, measures);
         case OrderCriterion::kFit:
-            return Message("{} have the largest fit ({}).", structure, measures);
+            return Message("{} have the best fit ({}).", structure, measures);
         default:
-            return Message("{} have the largest validation fit ({}).", structure, measures);
+            return Message("{} have the best validation fit ({}).", structure, measures);
     }
 }
 

@@ -214,7 +214,7 @@ std::vector<TransferStructure> order_grid(std::pair<int, int> poles, std::pair<i
         throw InvalidArgument("option 'poles' must be a range starting at 1 or higher, such as {1, 4}");
     if (zeros.first < 0 || zeros.second < zeros.first)
         throw InvalidArgument("option 'zeros' must be a range starting at 0 or higher, such as {0, 2}");
-    if (delays.empty()) throw InvalidArgument("at least one delay must be given; use 0 for none");
+    if (delays.empty()) throw InvalidArgument("at least one delay must be given; use 0 for no delay");
     const double requested =
         (1.0 + poles.second - poles.first) * (1.0 + zeros.second - zeros.first) * static_cast<double>(delays.size());
     if (requested > kMaxCandidates)

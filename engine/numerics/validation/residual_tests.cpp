@@ -287,7 +287,7 @@ Message better_start(const IdData& data, const std::vector<TransferFunction>& ch
     const Comparison best = compare_all(data, channels, {});
     const double reached = best.fit_percent[static_cast<Index>(output)];
     if (!(reached - fit >= kBetterStart * (100 - fit))) return {};
-    return Message("The assumed initial conditions are wrong: simulated {}, the fit is {} % instead of {} %.",
+    return Message("The assumed initial conditions are wrong: for a simulation {}, the fit is {} % instead of {} %.",
                    description(best.results[0][output].start), significant(reached, 4), significant(fit, 4));
 }
 

@@ -37,16 +37,17 @@ Index first_other_clock(const Clock& clock, Index length) {
 
 DataIssue mixed_sampling(const Clock& clock, Index place, std::size_t experiment, const std::string& unit) {
     const double other = median(clock.steps.segment(place, std::min<Index>(20, clock.steps.size() - place)));
-    return {"mixed_sampling",
-            Weight::kWarning,
-            "",
-            Message("The data mix two sampling times: {} steps of {} and {} of {}, first at sample {}. Two files were "
-                    "probably joined; create an experiment from each part, resample one part and merge both.",
-                    clock.alike_to(clock.usual), with_unit(significant(clock.usual, 4), unit), clock.alike_to(other),
-                    with_unit(significant(other, 4), unit), place + 1),
-            other,
-            experiment,
-            {{place + 1, place + 2}}};
+    return {
+        "mixed_sampling",
+        Weight::kWarning,
+        "",
+        Message("The data mix two sampling times: {} steps of {} and {} steps of {}, which begin at sample {}. Two "
+                "files were probably joined. Create an experiment from each part, resample one part and merge both.",
+                clock.alike_to(clock.usual), with_unit(significant(clock.usual, 4), unit), clock.alike_to(other),
+                with_unit(significant(other, 4), unit), place + 1),
+        other,
+        experiment,
+        {{place + 1, place + 2}}};
 }
 
 DataIssue gaps(const Clock& clock, Index count, std::size_t experiment, const std::string& unit) {
@@ -56,8 +57,8 @@ DataIssue gaps(const Clock& clock, Index count, std::size_t experiment, const st
     return {"gaps",
             Weight::kWarning,
             "",
-            Message("The time jumps at {}, first after sample {} by {} instead of {}: samples are missing. Interpolate "
-                    "small gaps (interp1); at large gaps, split the data into experiments.",
+            Message("The time jumps at {}, first after sample {}, by {} instead of {}: samples are missing. "
+                    "Interpolate small gaps (interp1); at large gaps, split the data into experiments.",
                     plural(count, "{} place", "{} places"), place + 1, with_unit(significant(step, 4), unit),
                     with_unit(significant(clock.usual, 4), unit)),
             step,

@@ -40,7 +40,7 @@ SimulationSpread simulation_spread(const ModelsOfParameters& models, const Vecto
                               N);
     if (covariance.rows() != d || covariance.cols() != d || !covariance.allFinite())
         throw InvalidArgument(
-            "The spread needs the finite covariance of the {} parameters, but got a matrix of {} x {}", d,
+            "The spread needs a finite covariance matrix of the {} parameters, but got a {} x {} matrix", d,
             covariance.rows(), covariance.cols());
     const std::vector<TransferFunction> own = models(theta);
     if (u.cols() != static_cast<Index>(own.size()))

@@ -81,10 +81,10 @@ inline constexpr std::array kSearchOptions = {
                                         {.member = "output_weights"})};
 
 inline constexpr std::array kDelayOptions = {
-    option<&FitOptions::least_delay>("TdMin", about("smallest delay of the search"),
+    option<&FitOptions::least_delay>("TdMin", about("smallest delay in the search"),
                                      {.unit = "s", .member = "least_delay"}),
     option<&FitOptions::largest_delay>(
-        "TdMax", about("largest delay of the search; by default a bound from the data; 0 for no delay"),
+        "TdMax", about("largest delay in the search, by default a bound computed from the data; 0 for no delay"),
         {.unit = "s", .member = "largest_delay"}),
     option<&FitOptions::delay_count>("NumTd", about("maximum number of delays on the grid of the search"),
                                      {.member = "delay_count"})};

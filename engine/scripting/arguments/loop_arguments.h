@@ -18,7 +18,7 @@ inline constexpr std::array kLoopOptions = {
                 about("controller of the loop: a continuous-time model, a discrete-time model with the sampling time "
                       "of the data, or a number; optional")},
     OptionEntry{"ComputingDelay", ValueKind::kCount,
-                about("delay of a sampled controller in samples; by default, 0 or 1 is determined from the data")},
+                about("delay of a sampled controller in samples; by default 0 or 1, determined from the data")},
     option<&LoopKnowledge::hold_r>("hold_r",
                                    about("intersample behavior of the reference for a continuous-time controller"),
                                    {.initial = "\"zoh\"", .choices = kHolds})};

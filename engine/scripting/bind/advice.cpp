@@ -42,8 +42,8 @@ std::string text_of(const Call& call, const Advice& advice, std::size_t experime
 int advice_to_text(lua_State* L) {
     const std::string text =
         localized(Call(L), plural(static_cast<std::int64_t>(lua_rawlen(L, 1)),
-                                  "({} issue: a[1].message, ..., a.clean and a.discard of a = advice(data))",
-                                  "({} issues: a[1].message, ..., a.clean and a.discard of a = advice(data))"));
+                                  "({} issue; with a = advice(data), see a[1].message, ..., a.clean and a.discard)",
+                                  "({} issues; with a = advice(data), see a[1].message, ..., a.clean and a.discard)"));
     lua_pushlstring(L, text.data(), text.size());
     return 1;
 }

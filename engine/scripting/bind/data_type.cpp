@@ -51,7 +51,7 @@ int part(Call& call) {
 
 Index whole_index(double number) {
     if (number != std::floor(number))
-        throw InvalidArgument("samples and channels must be whole numbers, but {} was given", number);
+        throw InvalidArgument("sample and channel numbers must be whole numbers, but {} was given", number);
     return index_of_whole(number);
 }
 

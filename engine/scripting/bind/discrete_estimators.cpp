@@ -62,8 +62,8 @@ constexpr std::array kBoxJenkinsArguments = {
 /// The entry of an order vector that is one number for all inputs.
 int only_value(const std::vector<int>& entry, const OrderEntry& what) {
     if (entry.size() == 1) return entry.front();
-    throw InvalidArgument("{} must be one number of {} for all inputs, but {} were given", what.name, what.meaning(),
-                          entry.size());
+    throw InvalidArgument("{}, the number of {}, must be one value for all inputs, but {} values were given", what.name,
+                          what.meaning(), entry.size());
 }
 
 template <auto kMethod>

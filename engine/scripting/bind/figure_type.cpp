@@ -102,7 +102,8 @@ const RecordedSlider& slider_of_handle(const Options& options, const std::string
     const auto& sliders = options.call().context().recorder.record().sliders;
     const auto found = sliders.find(name);
     if (found != sliders.end()) return found->second;
-    if (name.empty()) throw InvalidArgument("'{}' is a function: {} = \"NAME\" must name its slider", coordinate, key);
+    if (name.empty())
+        throw InvalidArgument("'{}' is a function, so the option {} = \"NAME\" must name its slider", coordinate, key);
     throw InvalidArgument("the slider \"{}\" does not exist yet: call slider(\"{}\", ...) before you create the handle",
                           name, name);
 }

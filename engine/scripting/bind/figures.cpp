@@ -70,7 +70,8 @@ constexpr std::array kSubplotArguments = {
 constexpr std::array kSaveFigureArguments = {
     ArgumentEntry{"fig", ValueKind::kAny, about("figure")},
     ArgumentEntry{"path", ValueKind::kText,
-                  about("file ending in .pdf, .svg, .png or .gp, below the output folder or the script's folder")}};
+                  about("file name ending in .pdf, .svg, .png or .gp, in the script's folder, the output folder or a "
+                        "folder inside them")}};
 
 /// Options of plot that hold one value for all curves or one per curve.
 struct CurveLists {

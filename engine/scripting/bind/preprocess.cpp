@@ -112,7 +112,7 @@ std::string trend_kind(const Call& call) {
     const double degree = call.number(2, "kind");
     if (degree == 0) return "mean";
     if (degree == 1) return "linear";
-    throw InvalidArgument("a trend must have the degree 0 (\"mean\") or 1 (\"linear\"), but {} was given",
+    throw InvalidArgument("a trend must have degree 0 (\"mean\") or 1 (\"linear\"), but {} was given",
                           significant(degree, 10));
 }
 

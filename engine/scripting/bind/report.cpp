@@ -17,7 +17,7 @@ constexpr std::array kSliderOptions = {
     option<&RecordedSlider::step>(
         "step", about("step between positions; by default, every number in the range can be selected")),
     option<&RecordedSlider::logarithmic>(
-        "log", about("true spaces the positions equally on a logarithmic scale; not with `step`")),
+        "log", about("true spaces the positions equally on a logarithmic scale; cannot be combined with `step`")),
     option<&RecordedSlider::unit>("unit", about("unit after the number")),
     option<&RecordedSlider::label>("label", about("text next to the slider; by default, the name"))};
 constexpr OptionTable kSliderTables[] = {kSliderOptions};

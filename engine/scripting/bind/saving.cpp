@@ -20,7 +20,7 @@ constexpr std::array kSaveCsvOptions = {
     OptionEntry{
         "columns", ValueKind::kAny,
         about("names of the columns in the order of the file; by default t, then the others in alphabetical order")},
-    option<&CsvTable::Ts>("Ts", about("sampling time to note in the file"), {.unit = "s"}),
+    option<&CsvTable::Ts>("Ts", about("sampling time to write to the file"), {.unit = "s"}),
     OptionEntry{"digits",
                 ValueKind::kCount,
                 about("number of significant digits; 17 keeps every bit"),
@@ -34,19 +34,20 @@ constexpr OptionTable kSaveCsvTables[] = {kSaveCsvOptions}, kSaveMatTables[] = {
 
 constexpr std::array kSaveCsvArguments = {
     ArgumentEntry{"path", ValueKind::kText,
-                  about("file name ending in .csv, below the output folder or the script's folder")},
+                  about("file name ending in .csv, in the script's folder, the output folder or a folder inside them")},
     ArgumentEntry{
         "data", ValueKind::kData,
         about("data object with one experiment, or a table of named vectors, lists of numbers and lists of strings")}};
 constexpr std::array kSaveMatArguments = {
     ArgumentEntry{"path", ValueKind::kText,
-                  about("file name ending in .mat, below the output folder or the script's folder")},
+                  about("file name ending in .mat, in the script's folder, the output folder or a folder inside them")},
     ArgumentEntry{"variables", ValueKind::kTable,
                   about("table of named variables: models, data objects, vectors, matrices, numbers, strings, lists of "
                         "strings, and tables of these")}};
 constexpr std::array kSaveJsonArguments = {
-    ArgumentEntry{"path", ValueKind::kText,
-                  about("file name ending in .json, below the output folder or the script's folder")},
+    ArgumentEntry{
+        "path", ValueKind::kText,
+        about("file name ending in .json, in the script's folder, the output folder or a folder inside them")},
     kSaveMatArguments[1]};
 
 std::filesystem::path file_to_write(const Call& call, const char* extension) {

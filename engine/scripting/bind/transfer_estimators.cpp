@@ -60,7 +60,8 @@ FilteredCall filtered_call(const Call& call) {
     call.at_most(4);
     const auto orders = order_lists(call, 2, kCarxOrders);
     if (orders[0].size() != 1)
-        throw InvalidArgument("na must be one number of poles for all inputs, but {} were given", orders[0].size());
+        throw InvalidArgument("na, the number of poles, must be one value for all inputs, but {} values were given",
+                              orders[0].size());
     const Options options(call, 4, kMomentFunctionals ? OptionTables(kMoments) : OptionTables(kFiltered));
     SvfOptions requested;
     requested.lambda = call.number(3, "lambda");

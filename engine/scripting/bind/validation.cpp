@@ -109,11 +109,11 @@ void note_offsets(const Call& call, const IdData& data, const Comparison& compar
         for (const auto& results : comparison.results)
             offsets.items.push_back(level_text(results[output].offset, data.output_units[output]));
         lines.items.push_back(without.size() == 1
-                                  ? Message("fit: an estimated offset of {} was removed; without this offset, the fit "
-                                            "is {} %. To choose, set {} to \"estimate\" or \"none\".",
-                                            offsets, significant(without[i], 4), OptionName{"offset"})
-                                  : Message("fit: an estimated offset of {} was removed from {}; without this offset, "
+                                  ? Message("fit: an estimated offset of {} was removed; if the offset is not removed, "
                                             "the fit is {} %. To choose, set {} to \"estimate\" or \"none\".",
+                                            offsets, significant(without[i], 4), OptionName{"offset"})
+                                  : Message("fit: an estimated offset of {} was removed from {}; if the offset is not "
+                                            "removed, the fit is {} %. To choose, set {} to \"estimate\" or \"none\".",
                                             offsets, data.output_names[output], significant(without[i], 4),
                                             OptionName{"offset"}));
     }

@@ -57,8 +57,8 @@ int write_element(Call& call) {
     NumericBlock* v = to_vector(call.state(), 1);
     if (lua_isinteger(call.state(), 2) && lua_tointeger(call.state(), 2) > v->rows)
         throw InvalidArgument(
-            "v[{}] does not exist: v has {}, and its length is fixed; zeros(n) creates a vector of length n, and "
-            "vector{v, x} appends x to v",
+            "v[{}] does not exist: v has {}, and its length is fixed. Use zeros(n) to create a vector of length n, or "
+            "vector{v, x} to append x to v",
             lua_tointeger(call.state(), 2), plural(v->rows, "{} element", "{} elements"));
     const Index number = element_index(call.state(), 2, v->rows, "v");
     v->data()[number] = call.number(3, Message("the new value"));

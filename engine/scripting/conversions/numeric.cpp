@@ -92,7 +92,7 @@ void charge_outside_bytes(lua_State* L, std::size_t bytes, const char* what) {
 Message numbered_from_one(Index count) {
     return count == 0   ? Message("there are none")
            : count == 1 ? Message("there is only 1")
-                        : Message("there are 1 to {}", count);
+                        : Message("the valid numbers are 1 to {}", count);
 }
 
 Message vector_shape(Index size) {

@@ -183,7 +183,7 @@ class Linter {
         for (const std::string& name : declared)
             if (!given.contains(name))
                 add(places.contains(name) ? places.at(name) : 0, "unused-answer",
-                    Message("the answer \"{}\" is never submitted: answer(\"{}\", ...)", name, name));
+                    Message("the script never submits the answer \"{}\"; write answer(\"{}\", ...)", name, name));
     }
 
     /// Where the header names each answer: there may be thousands, so its lines are read once.

@@ -18,10 +18,10 @@ inline constexpr std::array kPanelOptions = {
     OptionEntry{"y_range", ValueKind::kVector, about("y-axis limits, {low, high}")},
     option<&Panel::log_x>("x_log", about("true for a logarithmic x-axis")),
     option<&Panel::log_y>("y_log", about("true for a logarithmic y-axis")),
-    option<&Panel::equal_axes>("equal_axes", about("equal units on both axes")),
+    option<&Panel::equal_axes>("equal_axes", about("true for equal data units on both axes")),
     option<&Panel::legend>("legend",
                            about("position of the legend; \"direct\" writes each name next to its curve, or creates a "
-                                 "legend if space is missing"),
+                                 "legend if there is not enough space"),
                            {.initial = "\"automatic\"", .choices = kLegendPlaces}),
     OptionEntry{"curves", ValueKind::kTable,
                 about("list of curves, each {x =, y =, label =, style =, color =, dash =, line_width =, marker =}; a "

@@ -20,8 +20,8 @@ int operate(Call& call) {
 
 int refuse_order(Call&) {
     throw InvalidArgument(
-        "symbolic values cannot be compared: where(c, a, b) returns a if c > 0 and b otherwise; sign, max, min and abs "
-        "also support symbolic values");
+        "symbolic values cannot be compared. Use where(c, a, b), which returns a if c > 0 and b otherwise; sign, max, "
+        "min and abs also support symbolic values");
 }
 
 int input_of(Call& call) {

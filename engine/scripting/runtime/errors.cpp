@@ -48,8 +48,9 @@ Message call_sentence(const std::string& text, const std::string& type) {
         return Message("{} does not support this loop; write for i, x in ipairs(v) do ... end", what_it_is(type));
     if (type == "nil")
         return Message("{} is nil (it has no value), so it cannot be called like a function", subject(text));
-    const Message advice = type == "model"    ? Message("freqresp(G, w) returns its values at frequencies")
-                           : type == "matrix" ? Message("write the element i, j as A[{i, j}]")
+    const Message advice = type == "model"
+                               ? Message("freqresp(G, w) returns the values of a model G at the frequencies w")
+                           : type == "matrix"                    ? Message("write the element i, j as A[{i, j}]")
                            : type == "vector" || type == "table" ? Message("write the element i as v[i]")
                                                                  : Message();
     return with_advice(Message("{} is {}, so it cannot be called like a function", subject(text), what_it_is(type)),
@@ -192,7 +193,10 @@ Message syntax_sentence(const std::string& text, const std::string& near) {
     if (text.find("unfinished string") != std::string::npos) return Message("unterminated string");
     if (near == "<eof>") return Message("the script ends in the middle of a statement");
     if (starts_with(text, "<eof> expected") && near != "end")
-        return Message("unexpected '{}': return must be the last statement of its block; comment it out with --", near);
+        return Message(
+            "unexpected '{}': return must be the last statement of its block. Remove return, or comment out the "
+            "statements after it with --",
+            near);
     if (starts_with(text, "<eof> expected")) return Message("unexpected '{}': no block is open", near);
     if (starts_with(text, "<name> expected")) return Message("expected a name before '{}'", near);
     if (auto requested = between(text, "", " expected")) return Message("expected {} before '{}'", *requested, near);
@@ -205,7 +209,7 @@ PlacedMessage missing_end(const LocatedMessage& placed, const std::string& sourc
     const auto block = block_without_end(source);
     if (!block) return {Message("an 'end' is missing at the end of the script"), placed.file, placed.line};
     if (block->else_if > 0)
-        return {Message("an 'end' is missing: 'else if' opens a second block; write elseif"), placed.file,
+        return {Message("an 'end' is missing, because 'else if' opens a second block; write elseif"), placed.file,
                 block->else_if};
     return {Message("the '{}' of line {} has no 'end'", block->word, block->line), placed.file, block->line};
 }

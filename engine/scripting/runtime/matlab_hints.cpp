@@ -166,8 +166,8 @@ Message operator_hint(const std::string& code) {
     if (contains(code, "!=") || contains(code, "<>")) return Message("write 'not equal' as ~= in Lua");
     if (contains(code, "!")) return Message("write 'not' as not x");
     if (contains(code, ":=")) return Message("assign a value with =: x = 3");
-    if (contains(code, "&&")) return Message("write 'and' as and");
-    if (contains(code, "||")) return Message("write 'or' as or");
+    if (contains(code, "&&")) return Message("write and instead of &&");
+    if (contains(code, "||")) return Message("write or instead of ||");
     if (contains(code, "+=") || contains(code, "-=") || contains(code, "*="))
         return Message("write x = x + 1 instead of x += 1");
     if (contains(code, "++")) return Message("write x = x + 1 instead of x++");
@@ -265,7 +265,7 @@ Message matlab_syntax_hint(const std::string& line, const std::string& near) {
     if (first != std::string::npos && (code[first] == '%' || code[first] == '#')) return comment_form();
     if (has_assignment_condition(code)) return Message("to compare, write == instead of =");
     if (Message hint = operator_hint(code); !hint.empty()) return hint;
-    if (ends_with(code, "...") && near != ")") return Message("a statement can continue in the next line without ...");
+    if (ends_with(code, "...") && near != ")") return Message("a statement can continue on the next line without ...");
     if (has_transpose(code)) return Message("the transpose is A:t(); a vector is already a column");
     if (Message hint = block_hint(code); !hint.empty()) return hint;
     if (Message hint = element_hint(code); !hint.empty()) return hint;

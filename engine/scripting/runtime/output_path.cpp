@@ -22,8 +22,10 @@ fs::path output_path(const RuntimeContext& context, const std::string& path) {
         throw InvalidArgument("the path of a file to write must not be empty");
     const fs::path file = fs::weakly_canonical(fs::absolute(context.options.out_folder / path));
     if (!is_below_folder(file, context.options.out_folder) && !is_below_folder(file, context.options.script_folder))
-        throw InvalidArgument("'{}' is outside the script's folder and the output folder; scripts write only there",
-                              path);
+        throw InvalidArgument(
+            "'{}' is outside the script's folder and the output folder; scripts can write only to these folders and "
+            "their subfolders",
+            path);
     if (context.services.written != nullptr) context.services.written->take(file);
     std::error_code failure;
     fs::create_directories(file.parent_path(), failure);

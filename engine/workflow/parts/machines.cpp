@@ -256,8 +256,8 @@ std::vector<Message> do_on_hosts(const Machines& machines, const WorkInParts& wo
         if (!line.empty()) said.push_back(Message::verbatim(line));
     if (done.exit_code != 0)
         throw EnvironmentError(
-            "not all parts were processed ({} contains them): {}\nEach host must have access to this folder, and `ssh "
-            "HOST {} --version` must work without a password. Repeat the command to continue",
+            "not all parts were processed (see {}): {}\nEach host must have access to this folder, and `ssh HOST {} "
+            "--version` must work without a password. Repeat the command to continue",
             log.string(), MessageList{said, Join::kLines}, running_program().string());
     return said;
 }

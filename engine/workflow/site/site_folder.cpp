@@ -34,7 +34,7 @@ WrittenBefore written_before(const fs::path& folder) {
 }
 
 [[noreturn]] void refuse(const fs::path& folder, const Message& why) {
-    throw EnvironmentError("{}: {}; give a new or an empty folder; nothing was changed", folder.string(), why);
+    throw EnvironmentError("{} was not changed, because {}; give a new or an empty folder", folder.string(), why);
 }
 
 /// Refuses a file of that name that the older site did not write, or that was changed since.

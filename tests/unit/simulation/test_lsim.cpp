@@ -158,7 +158,7 @@ TEST(lsim, says_what_is_wrong) {
     EXPECT_EQ(thrown_message([] {
                   lsim(kSecondOrder, from({1, 2, 3}), from({0, 2, 1}));
               }),
-              "lsim: the time vector must be increasing, but instant 3 is 1 after 2");
+              "lsim: the time vector must be increasing, but instant 3 is 1 and the previous instant is 2");
     EXPECT_EQ(thrown_message([] {
                   lsim(TransferFunction(from({1, 0}), from({1})), from({1}), 0.1);
               }),

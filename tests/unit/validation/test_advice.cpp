@@ -292,7 +292,7 @@ TEST(advice, sampling_instants_are_looked_at) {  // oracle: instants put togethe
         gaps[k] = 0.1 * static_cast<double>(k + (k > 400 ? 3 : 0) + (k > 800 ? 1 : 0));
     }
     EXPECT_THAT(said(advise(IdData(Matrix(r.y), Matrix(r.u), mixed)), "mixed_sampling"),
-                HasSubstr("600 steps of 0.1 s and 399 of 0.2 s"));
+                HasSubstr("600 steps of 0.1 s and 399 steps of 0.2 s"));
     EXPECT_THAT(said(advise(IdData(Matrix(r.y), Matrix(r.u), gaps)), "gaps"),
                 HasSubstr("jumps at 2 places, first after sample 401"));
     const Vector even = Vector::LinSpaced(1000, 0, 99.9);

@@ -92,7 +92,7 @@ TEST(residual_tests, known_causes_are_named) {
     EXPECT_THAT(verdict_on(fast, lsim(quick, fast, kTs) + e, late, {}), HasSubstr("try a shorter delay"));
     const Vector long_u = (Vector(2 * u.size()) << Vector::Constant(u.size(), 3), u).finished();
     const Vector running = lsim(kG, long_u, kTs).tail(u.size());
-    EXPECT_THAT(verdict(running + e, kG), HasSubstr("The assumed initial conditions are wrong: simulated"));
+    EXPECT_THAT(verdict(running + e, kG), HasSubstr("The assumed initial conditions are wrong: for a simulation"));
     EXPECT_THAT(verdict(answer + 0.2 * u + e, kG, {{}, Message("With this the fit is 9 %.")}),
                 HasSubstr("With this the fit"));
     EXPECT_THAT(verdict(answer + e, kG, {{"b0"}, {}}), HasSubstr("the data do not reliably determine b0"));

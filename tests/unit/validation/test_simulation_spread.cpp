@@ -101,7 +101,7 @@ TEST(simulation_spread, refuses_what_makes_no_spread) {  // oracle: definitions
                 HasSubstr("too large"));
     const PolynomialModel model(PolynomialOrders::arx(1, {1}, {1}), Vector{{-0.5, 1}}, 1);
     EXPECT_THAT(thrown_message([&] { simulation_spread(model, Matrix::Identity(3, 3), Vector::Ones(9), 9, random); }),
-                HasSubstr("the 2 parameters, but got a matrix of 3 x 3"));
+                HasSubstr("the 2 parameters, but got a 3 x 3 matrix"));
     const PolynomialModel two(PolynomialOrders::arx(1, {1, 1}, {1, 1}), Vector{{-0.5, 1, 1}}, 1);
     EXPECT_THAT(thrown_message([&] { simulation_spread(two, Matrix::Identity(3, 3), Vector::Ones(9), 9, random); }),
                 HasSubstr("The model has 2 inputs, but 1 were given"));

@@ -10,8 +10,9 @@ void check_polynomial_data(const std::string& method, const IdData& data, const 
     if (data.output_count() != 1)
         throw InvalidArgument("{} needs one output, but the data have {}: select one", method, data.output_count());
     if (data.input_count() > 0 && static_cast<std::size_t>(data.input_count()) != orders.inputs())
-        throw InvalidArgument("{}: the data have {}, so each of nb, nf and nk needs as many values, but {} were given",
-                              method, plural(data.input_count(), "{} input", "{} inputs"), orders.inputs());
+        throw InvalidArgument(
+            "{}: the data have {}, so nb, nf and nk need one value for each input, but the number of values is {}",
+            method, plural(data.input_count(), "{} input", "{} inputs"), orders.inputs());
     check_sampled_data(method, data);
     const int longest_delay = *std::max_element(orders.nk.begin(), orders.nk.end());
     for (std::size_t e = 0; e < data.experiments.size(); ++e)

@@ -329,8 +329,8 @@ Fit run_pass(AnyPass& pass, const RecursiveName& method, const IdData& data, con
     }
     if (!pass.known())
         throw InvalidArgument(
-            "{}: the samples do not determine the parameters: the input does not excite the system enough for {} "
-            "parameters",
+            "{}: the samples do not determine the parameters, because the input does not excite the system enough for "
+            "{} parameters",
             method.name, d);
     fit.theta = pass.theta();
     fit.covariance = pass.covariance();
@@ -338,7 +338,7 @@ Fit run_pass(AnyPass& pass, const RecursiveName& method, const IdData& data, con
     fit.history = std::move(history);
     if (pass.samples_not_followed() > N / 2)
         fit.warnings.push_back(
-            Message("At most samples, the estimate was unstable or too fast for the sampling time. The filters and "
+            Message("For most samples, the estimate was unstable or too fast for the sampling time. The filters and "
                     "instruments then used the last suitable model."));
     describe_models(fit);
     fit.message = Message("{}, recursive, {}.", method.title, memory_text(options));

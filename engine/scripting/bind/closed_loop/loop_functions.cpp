@@ -21,7 +21,8 @@ constexpr std::array kLoopEquationOrders = {kNa, kNb, kNk};
 constexpr std::array kLoopOutputOrders = {kNb, kNf, kNk};
 
 constexpr std::array kSimloopOptions = {
-    OptionEntry{"noise", ValueKind::kVector, about("N samples added to the output that the controller reads")},
+    OptionEntry{"noise", ValueKind::kVector,
+                about("N samples of noise, added to the output that the controller reads")},
     option<&LoopController::computing_delay>(
         "ComputingDelay", about("delay in samples from reading y to the corresponding u, for sampled controllers")),
     OptionEntry{"hold",

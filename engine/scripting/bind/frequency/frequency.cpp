@@ -32,7 +32,7 @@ constexpr OptionEntry kResponseForm = {
     ValueKind::kChoice,
     about("meaning of two vectors: real and imaginary part (\"complex\"), magnitude and phase in degrees (\"polar\"), "
           "or decibels and degrees (\"dB\"). By default, the units of the columns returned by `load` determine the "
-          "meaning, otherwise \"complex\""),
+          "meaning; without units, it is \"complex\""),
     {.choices = kResponseForms}};
 constexpr std::array kResponseOptions = {
     kResponseForm,
@@ -65,8 +65,8 @@ constexpr OptionTable kResponse[] = {kResponseOptions}, kBla[] = {kBlaOptions};
 
 constexpr std::array kResponseArguments = {
     ArgumentEntry{"H", ValueKind::kAny,
-                  about("response: a complex vector, {re, im} of two vectors, a list of pairs {{re, im}, ...}, or a "
-                        "model with this response")},
+                  about("response: a complex vector, a table {re, im} of two vectors, a list of pairs {{re, im}, ...}, "
+                        "or a model with this response")},
     ArgumentEntry{"w", ValueKind::kVector,
                   about("positive, distinct frequencies in rad/s; a column in Hz returned by `load` is converted")}};
 constexpr std::array kBlaArguments = {
@@ -118,11 +118,11 @@ ComplexVector complex_argument(const Call& call, int index, ArgumentName what, c
     if (const ComplexVector* values = to_object<ComplexVector>(call.state(), index)) return *values;
     if (call.type(index) != LUA_TTABLE && to_matrix(call.state(), index) == nullptr)
         wrong_argument(call.state(), index, what,
-                       Message("a complex vector, as returned by freqresp, or {re, im} of two vectors"));
+                       Message("a complex vector, as returned by freqresp, or a table {re, im} of two vectors"));
     const ResponseForm form = form_of(call, index, options);  // of the list, which becomes a matrix
     const MatrixMap parts = call.matrix(index, what);
     if (parts.cols() != 2)
-        throw InvalidArgument("{} needs a real and an imaginary part: {re, im} of two vectors, not {}",
+        throw InvalidArgument("{} needs a real and an imaginary part: a table {re, im} of two vectors, not {}",
                               argument_label(index, what), plural(parts.cols(), "{} column", "{} columns"));
     ComplexVector values(parts.rows());
     if (form == ResponseForm::kComplex) {

@@ -15,11 +15,10 @@ namespace {
 
 constexpr std::array kIdgreyOptions = {
     OptionEntry{"states", ValueKind::kAny, about("names of the states, or their number; by default the length of x0")},
-    OptionEntry{
-        "outputs",
-        ValueKind::kAny,
-        about("function(t, x, u, p) that returns a table of outputs; by default, the outputs are the first states"),
-        {.member = "outputs"}},
+    OptionEntry{"outputs",
+                ValueKind::kAny,
+                about("function(t, x, u, p) that returns a table of outputs; by default, output i is equal to state i"),
+                {.member = "outputs"}},
     OptionEntry{"x0",
                 ValueKind::kAny,
                 about("initial state: for each state a number, the name of a parameter or \"estimate\"; one such value "
@@ -226,8 +225,8 @@ int make_grey_model(Call& call) {
     CalledFunctions called = call_functions(equations, model.start());
     if (traced && !agree(*traced, called, model.start())) {
         reason = Message(
-            "the function returns different results when called again, or branches on its arguments (==, or separate "
-            "values)");
+            "the function returns different results when it is called again, or it branches on the values of its "
+            "arguments, for instance with ==");
         traced.reset();
     }
     model.inputs = traced ? traced->inputs : called.inputs;

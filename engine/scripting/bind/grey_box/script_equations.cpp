@@ -63,7 +63,7 @@ Message with_remedy(const Message& message) {
     std::string name;
     if (!RE2::PartialMatch(message_text(message), kOfMath, &name)) return message;
     if (kFollowed.contains(name))
-        return Message("{}; math.{} accepts only numbers: write {}(...) without math, which supports symbolic values",
+        return Message("{}; math.{} accepts only numbers, so write {}(...), which also supports symbolic values",
                        message, name, name);
     return Message("{}; math.{} accepts only numbers and does not support symbolic values", message, name);
 }

@@ -63,7 +63,7 @@ constexpr std::array kNarxArguments = {
                                         "With several inputs, nb and nk can be tables, such as {2, {1, 2}, {1, 3}}")}};
 constexpr std::array kSindyArguments = {
     ArgumentEntry{"data", ValueKind::kData,
-                  about("data object with all states as outputs, 1 to 8; any number of inputs and experiments, "
+                  about("data object with all states (1 to 8) as outputs; any number of inputs and experiments, "
                         "regularly or irregularly sampled")}};
 constexpr std::array kDmdcArguments = {
     ArgumentEntry{"data", ValueKind::kData,
@@ -72,7 +72,7 @@ constexpr std::array kDmdcArguments = {
 NarxLags lags_argument(const Call& call, Index inputs) {
     const auto orders = order_lists(call, 2, kNarxLags);
     if (orders[0].size() != 1)
-        throw InvalidArgument("argument {} (orders) must be {}, but na is one number", 2, meaning_of(kNarxLags));
+        throw InvalidArgument("argument {} (orders) must be {}, and na must be one number", 2, meaning_of(kNarxLags));
     NarxLags lags{orders[0].front(), orders[1], orders[2]};
     for (std::vector<int>* of_inputs : {&lags.nb, &lags.nk})
         if (of_inputs->size() == 1) of_inputs->assign(static_cast<std::size_t>(inputs), of_inputs->front());
