@@ -62,7 +62,7 @@ class Column {
             if (!std::isfinite(clock_.t[i]))
                 return asks(
                     Message("the time column '{}' has no number in sample {}. Remove the rows without a time. If the "
-                            "file has a second time column, split it into two files",
+                            "file has a second time column, split the file into two files",
                             name_, i + 1));
         return true;
     }
@@ -132,14 +132,18 @@ class Column {
                         name_));
         if (forms.two_fields && stated == "min") clock_.t /= 60;
         const std::array ranges = {kSecondsOfDay, kSecondsOfDay / 2};
-        if (count_on(clock_.t, ranges) > 0) clock_.notes.push_back(Message("the times in '{}' pass midnight", name_));
+        if (count_on(clock_.t, ranges) > 0)
+            clock_.notes.push_back(
+                Message("the times in '{}' pass midnight; dynlab counts on into the next day", name_));
         return true;
     }
 
     bool order_of_day_and_month(const ClockForms& forms) {
         constexpr const char *kDayFirst = "dd/mm/yyyy", *kMonthFirst = "mm/dd/yyyy";
         if (forms.day_first && forms.month_first)
-            return asks(Message("some dates in '{}' have the day first, and some have the month first", name_));
+            return asks(Message(
+                "some dates in '{}' have the day first, and some have the month first. Use the same order in all rows",
+                name_));
         if (!forms.either_first && !forms.month_first) return true;
         Vector swapped = clock_.t;
         for (double& seconds : swapped)
@@ -188,7 +192,8 @@ class Column {
                 "{}: {} rows have the same time as the row before. If rows were written twice, delete the copies. If "
                 "the clock is too coarse, specify the sampling time with --Ts of a command or with iddata(y, u, Ts)",
                 place, equal);
-        return Message("{}: if the recording restarts or the clock was set, save each part in a separate file", place);
+        return Message("{}: if the recording was restarted or the clock was set, save each part in a separate file",
+                       place);
     }
     bool in_pairs() const {
         for (Index k = 0; k + 1 < clock_.t.size(); k += 2)

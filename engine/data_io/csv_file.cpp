@@ -266,7 +266,7 @@ class CsvReader {
                                                  table_.names[j], column.first_missing_line));
         if (!reported.items.empty())
             note(
-                Message("missing numbers were replaced with NaN: {}; use fillmissing(u, {method = \"previous\"}) for "
+                Message("missing numbers were replaced with NaN: {}. Use fillmissing(u, {method = \"previous\"}) for "
                         "an input that is logged only when it changes, and fillmissing(y) for an output",
                         first_of(reported)));
     }

@@ -73,7 +73,8 @@ std::vector<std::string> course_files(const fs::path& data_set) {
     for (const std::string& name : names)
         if (fs::path(name).has_parent_path())
             throw EnvironmentError(
-                "{}: \"{}\" must be followed by file names in that folder, but the path \"{}\" was given",
+                "{}: \"{}\" must be followed by names of files in the folder of the data set, but the path \"{}\" was "
+                "given",
                 (data_set / kSourceFile).string(), kCourseFileKey, name);
     return names;
 }

@@ -111,7 +111,7 @@ void check_header(const matvar_t& variable, const std::string& name, std::size_t
     if (!is_empty && kBytesOfValue * values > static_cast<double>(memory_for_reading(file_bytes))) {
         const ReadingMegabytes megabytes = megabytes_for_reading(file_bytes);
         throw EnvironmentError(
-            "variable {} has {} values: reading it requires more than {} MB of memory, too much for a file of {} MB",
+            "variable {} has {} values: reading it requires more than {} MB of memory, the limit for a file of {} MB",
             name, significant(values, 6), megabytes.most, megabytes.of_file);
     }
     for (const matvar_t* part : parts_of(variable)) {

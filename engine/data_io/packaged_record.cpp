@@ -33,7 +33,7 @@ Vector next_values(std::istream& text, const PackagedRecord& record, const Messa
     Vector values(record.samples);
     for (Index k = 0; k < record.samples; ++k)
         if (!(text >> values[k]))
-            throw EnvironmentError("{} ends early or contains text at {} {} of {}: reinstall the package {}",
+            throw EnvironmentError("{} ends early or contains text at {} sample {} of {}: reinstall the package {}",
                                    record.file.string(), what, k + 1, record.samples, record.package);
     return values;
 }

@@ -42,7 +42,7 @@ class Reader {
                 continue;
             }
             if (row.size() > table.names.size())
-                throw EnvironmentError("{}, line {}: {}, but the header has {}", file_.string(), line,
+                throw EnvironmentError("{}, line {}: the row has {}, but the header has {}", file_.string(), line,
                                        plural(std::ssize(row), "{} cell", "{} cells"),
                                        plural(std::ssize(table.names), "{} column", "{} columns"));
             row.resize(table.names.size());

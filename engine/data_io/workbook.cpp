@@ -360,7 +360,7 @@ SheetText read_sheet(const std::filesystem::path& file, const std::string& sheet
         } catch (const std::bad_alloc&) {
             const ReadingMegabytes megabytes = megabytes_for_reading(bytes);
             return cbor_of(SheetOutcome{{},
-                                        Message("{}: reading it requires more than {} MB of memory, too much for a "
+                                        Message("{}: reading it requires more than {} MB of memory, the limit for a "
                                                 "file of {} MB; save the sheet as CSV",
                                                 name, megabytes.most, megabytes.of_file)});
         }

@@ -132,7 +132,7 @@ Message fault_of_bibliography_name(const std::string& name) {
     const bool plain = name.find_first_of("/\\") == std::string::npos && !name.starts_with('.');
     if (plain && (extension == ".bib" || extension == ".json")) return {};
     return Message(
-        "bibliography must be the name of a .bib (BibTeX) or .json (CSL) file in the same folder, such as "
+        "\"bibliography\" must be the name of a .bib (BibTeX) or .json (CSL) file in the same folder, such as "
         "references.bib, not \"{}\"",
         name);
 }

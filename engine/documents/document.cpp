@@ -256,14 +256,14 @@ class DocumentBuilder {
         add_note(
             first,
             document.by_lualatex
-                ? Message("LuaLaTeX creates this PDF, which takes longer, because pdflatex cannot print \"{}\" ({})",
+                ? Message("Because pdflatex cannot print \"{}\" ({}), LuaLaTeX creates this PDF, which takes longer",
                           shown(first), code_of(first))
-                : Message("pdflatex cannot print these letters, and LuaLaTeX is not installed. They are printed "
-                          "as \"?\": {}. To print them, run sudo apt install {}",
+                : Message("LuaLaTeX is not installed, and pdflatex cannot print the following letters, which are "
+                          "printed as \"?\": {}. To print them, run sudo apt install {}",
                           with_lines(document.replaced), kLualatexPackages));
         if (!document.by_lualatex || document.replaced.empty()) return;
-        add_note(*document.replaced.begin(), Message("no installed font has these letters. They are printed as \"?\": "
-                                                     "{}. To add fonts, run sudo apt install {}",
+        add_note(*document.replaced.begin(), Message("no installed font has the following letters, which are printed "
+                                                     "as \"?\": {}. To add fonts, run sudo apt install {}",
                                                      with_lines(document.replaced), "fonts-noto-core fonts-noto-cjk"));
     }
 

@@ -32,7 +32,7 @@ int page_count(const std::string& key, const std::string& value, const Place& wh
 
 bool is_slides(const std::string& value, const Place& where) {
     if (value != "pages" && value != "slides")
-        throw DocumentError(where, Message("layout must be pages or slides, not \"{}\"", value));
+        throw DocumentError(where, Message("\"layout\" must be \"pages\" or \"slides\", not \"{}\"", value));
     return value == "slides";
 }
 

@@ -61,7 +61,7 @@ Message wrong_in_diagram(const std::string& code, const std::string& first, cons
     if (code == "kind") return Message("unknown kind \"{}\"; the kinds are block, sum, signal and branch", first);
     if (code == "place") return Message("column and row must be whole numbers from 1 to {}", first);
     if (code == "node-twice") return Message("the node {} is defined twice", first);
-    if (code == "most-nodes") return Message("a diagram has at most {} nodes", first);
+    if (code == "most-nodes") return Message("a diagram can have at most {} nodes", first);
     if (code == "sign") return Message("between two nodes, write ->, -| or |-, not {}", first);
     if (code == "no-node") return Message("no node {} is defined above this line", first);
     if (code == "arrow") return Message("an arrow must connect two nodes, as in u -> G");
@@ -171,11 +171,12 @@ class Sentences {
             return Message("the drawing \"{}\" may contain only one line with its caption", first);
         if (code == "unknown-measure") {
             const auto near = nearest_word(first, split_at(second, ' '));
-            return near ? Message(
-                              "unknown measure \"{}\"; did you mean \"{}\"? Use dynlab help measures for a list of the "
-                              "measures",
-                              first, *near)
-                        : Message("unknown measure \"{}\"; use dynlab help measures for a list of the measures", first);
+            return near
+                       ? Message(
+                             "unknown measure \"{}\"; did you mean \"{}\"? For a list of the measures, run dynlab help "
+                             "measures",
+                             first, *near)
+                       : Message("unknown measure \"{}\"; for a list of the measures, run dynlab help measures", first);
         }
         if (code == "figure-not-alone")
             return Message("the figure \"{}\" must be separate, with an empty line before and after it", first);
@@ -188,7 +189,7 @@ class Sentences {
         if (code == "nested-text")
             return Message("the text \"{}\" contains a text slot, which is not supported in text from a script", first);
         if (code == "width")
-            return Message("the width \"{}\" must be a percentage, cm or mm, such as 60% or 8cm", first);
+            return Message("the width \"{}\" must be a percentage or a length in cm or mm, such as 60% or 8cm", first);
         if (code == "column-width")
             return Message("a column needs a width in percent, as in ::: {.column width=60%}, not \"{}\"", first);
         if (code == "not-a-column")
@@ -213,8 +214,8 @@ class Sentences {
             return Message("write a percent sign in a formula as \\%, because % hides the rest of the line");
         if (kind == "environment")
             return Message(
-                "the environment {} is not allowed in formulas. Allowed are matrix (with b, p, v, V), array, cases, "
-                "aligned, gathered, split and the other environments of amsmath",
+                "the environment {} is not allowed in formulas. The allowed environments are matrix (also with the "
+                "prefix b, p, v or V), array, cases, aligned, gathered, split and the other environments of amsmath",
                 written);
         static const std::set<std::string> numbering = {"\\label", "\\ref",   "\\eqref",   "\\pageref",
                                                         "\\tag",   "\\notag", "\\nonumber"};

@@ -139,7 +139,7 @@ void check_nothing_overflows(const std::string& log, int lines_before_body) {
         const double excess = points / kPointsPerMm;
         if (excess < kUnseen || !RE2::PartialMatch(rest, page, &number)) continue;
         if (slides.items.empty()) first = line - lines_before_body;
-        slides.items.push_back(Message("the content of slide {} is {} mm too high", number, std::ceil(excess)));
+        slides.items.push_back(Message("the content of slide {} is {} mm too tall", number, std::ceil(excess)));
     }
     if (!slides.items.empty())
         throw LatexRefusal(
@@ -274,7 +274,11 @@ class LatexRun {
         const auto start = std::chrono::steady_clock::now();
         const ChildResult run = is_boxed() ? run_in_box(command(draft)) : run_child(command(draft), engine_.package);
         note("latex pass " + std::to_string(pass), start);
-        if (run.timed_out) throw LatexRefusal(Message("{} did not finish within two minutes", engine_.program), 0, "");
+        if (run.timed_out)
+            throw LatexRefusal(Message("{} did not finish within two minutes and was stopped; shorten the document, or "
+                                       "check the text for a macro that calls itself",
+                                       engine_.program),
+                               0, "");
         if (run.exit_code == 128 + SIGXFSZ)
             throw LatexRefusal(Message("{} wrote a file larger than 64 MB; use smaller pictures", engine_.program), 0,
                                "");

@@ -50,7 +50,11 @@ class HeaderReader {
 
     void read_answer(const std::string& name, const std::string& kind) {
         if (!in_answers_) fail(Message("\"{}\" is indented; only names below \"answers:\" may be indented", name));
-        if (!is_name(name)) fail(Message("\"{}\" cannot be the name of an answer", name));
+        if (!is_name(name))
+            fail(
+                Message("\"{}\" cannot be the name of an answer; a name must start with a letter or _ and contain only "
+                        "letters, digits, _ and -",
+                        name));
         if (kind.empty()) fail(Message("answer \"{}\" needs a kind, such as \"{}: number\"", name, name));
         if (std::find(answer_kinds().begin(), answer_kinds().end(), kind) == answer_kinds().end())
             fail(Message("answer \"{}\" has the unknown kind \"{}\"; the kinds are {}", name, kind,

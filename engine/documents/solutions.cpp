@@ -104,7 +104,8 @@ std::string without_solutions(const std::string& source, const std::filesystem::
                 break;
             case SolutionLine::kEnd:
                 if (!begun)
-                    fail(number, Message("\"-- END SOLUTION\" without a \"-- BEGIN SOLUTION\" in the same cell"));
+                    fail(number,
+                         Message("\"-- END SOLUTION\" needs a \"-- BEGIN SOLUTION\" before it in the same cell"));
                 begun = 0;
                 break;
             case SolutionLine::kStarter:

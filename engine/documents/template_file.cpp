@@ -90,21 +90,20 @@ void check_metadata(const std::string& key, const std::string& value, const Plac
                         key));
         if (const auto near = nearest_word(key, kAllowedKeys))
             throw DocumentError(where, Message("metadata key \"{}\" is not allowed; did you mean \"{}\"?", key, *near));
-        throw DocumentError(where,
-                            Message("metadata key \"{}\" is not allowed; allowed are {}", key, listed(kAllowedKeys)));
+        throw DocumentError(
+            where, Message("metadata key \"{}\" is not allowed; the allowed keys are {}", key, listed(kAllowedKeys)));
     }
     if (key == "lang" && !is_language(value))
-        throw DocumentError(where, Message("unknown lang \"{}\"; write {}", value, listed(languages(), Join::kOr)));
+        throw DocumentError(
+            where, Message("unknown language \"{}\" in \"lang\"; write {}", value, listed(languages(), Join::kOr)));
     if ((key == "toc" || key == "numbersections") && value != "true" && value != "false")
         throw DocumentError(where, Message("{} must be true or false, not \"{}\"", key, value));
     if (key == "bibliography")
         if (const Message fault = fault_of_bibliography_name(value); !fault.empty()) throw DocumentError(where, fault);
     if (key == "logo" && !is_name_of_kind(value, {".png", ".jpg", ".jpeg", ".pdf"}))
-        throw DocumentError(
-            where,
-            Message(
-                "logo must be the name of a .png, .jpg or .pdf file in the same folder, such as logo.png, not \"{}\"",
-                value));
+        throw DocumentError(where, Message("\"logo\" must be the name of a .png, .jpg or .pdf file in the same folder, "
+                                           "such as logo.png, not \"{}\"",
+                                           value));
     DocumentRules rules;
     read_document_rule(key, value, where, rules);
 }

@@ -81,7 +81,7 @@ Message over_axis(const MessageList& drawn, const std::string& over, const Reade
     if (over.empty()) return Message("{}", drawn);
     const std::string time = message_text(Message("time"), reader);
     if (over.starts_with(time)) return Message("{} over time{}", drawn, over.substr(time.size()));
-    return Message("{} over {}", drawn, over);
+    return Message("{} versus {}", drawn, over);
 }
 
 class Weaver {

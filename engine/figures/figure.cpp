@@ -39,7 +39,8 @@ void check_curve(const Curve& curve, const Panel& panel, const Message& name_of_
                               name_of_panel, name, plural(curve.x.size(), "{} value", "{} values"), curve.y.size());
     if (curve.style == CurveStyle::kBand && curve.y_upper.size() != curve.y.size())
         throw InvalidArgument(
-            "panel {}, curve {}: the upper edge of a band must have as many values as the lower edge, {}, not {}",
+            "panel {}, curve {}: the edges of a band must have the same number of values, but the lower edge has {} "
+            "and the upper edge has {}",
             name_of_panel, name, curve.y.size(), curve.y_upper.size());
     if (!std::isfinite(curve.line_width) || curve.line_width <= 0)
         throw InvalidArgument("panel {}, curve {}: the line width must be a positive number of points, not {}",
@@ -56,7 +57,7 @@ void check_curve(const Curve& curve, const Panel& panel, const Message& name_of_
 
 void check_tick_step(const std::optional<double>& step, const char* axis, const Message& panel) {
     if (step && !(std::isfinite(*step) && *step > 0))
-        throw InvalidArgument("panel {}: the tick spacing on {} must be positive, not {}", panel, axis,
+        throw InvalidArgument("panel {}: the tick spacing on the {}-axis must be positive, not {}", panel, axis,
                               as_given(*step));
 }
 
@@ -69,17 +70,23 @@ void check_panel(const Panel& panel, const Message& name) {
         check_curve(panel.curves[i], panel, name, numbered_name(i + 1, panel.curves[i].label));
     for (const ReferenceLine& line : panel.references)
         if (!drawable(line.at, line.horizontal ? panel.log_y : panel.log_x))
-            throw InvalidArgument("panel {}: a reference line cannot be drawn at {}", name, as_given(line.at));
+            throw InvalidArgument(
+                "panel {}: a reference line cannot be drawn at {}. Positions must be finite, and positive on a "
+                "logarithmic axis",
+                name, as_given(line.at));
     for (const Annotation& mark : panel.annotations)
         if (!drawable(mark.x, panel.log_x) || !drawable(mark.y, panel.log_y))
-            throw InvalidArgument("panel {}: the mark \"{}\" cannot be placed at ({}, {})", name, mark.text,
-                                  as_given(mark.x), as_given(mark.y));
+            throw InvalidArgument(
+                "panel {}: the mark \"{}\" cannot be placed at ({}, {}). Positions must be finite, and positive on a "
+                "logarithmic axis",
+                name, mark.text, as_given(mark.x), as_given(mark.y));
     for (const Arrow& arrow : panel.arrows)
         if (!drawable(arrow.x0, panel.log_x) || !drawable(arrow.x1, panel.log_x) || !drawable(arrow.y0, panel.log_y) ||
             !drawable(arrow.y1, panel.log_y))
-            throw InvalidArgument("panel {}: the arrow \"{}\" cannot be drawn from ({}, {}) to ({}, {})", name,
-                                  arrow.text, as_given(arrow.x0), as_given(arrow.y0), as_given(arrow.x1),
-                                  as_given(arrow.y1));
+            throw InvalidArgument(
+                "panel {}: the arrow \"{}\" cannot be drawn from ({}, {}) to ({}, {}). Positions must be finite, and "
+                "positive on a logarithmic axis",
+                name, arrow.text, as_given(arrow.x0), as_given(arrow.y0), as_given(arrow.x1), as_given(arrow.y1));
 }
 
 void check_motion(const Motion& motion, const std::vector<Panel>& panels) {
@@ -88,7 +95,7 @@ void check_motion(const Motion& motion, const std::vector<Panel>& panels) {
     for (std::size_t k = 0; k < motion.plant.parts.size(); ++k) {
         const std::size_t place = motion.picture + 1 + k;
         if (place >= panels.size() || panels[place].curves.size() < curves)
-            throw InvalidArgument("panel {} must show the {} that moves the animated plant", place + 1,
+            throw InvalidArgument("panel {} must show the signal {}, which moves the animated plant", place + 1,
                                   motion.plant.parts[k].signal);
     }
 }

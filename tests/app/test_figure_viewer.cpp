@@ -29,7 +29,7 @@ TEST(figure_viewer, shows_figures_as_they_are_made_the_newest_first) {
     FigureViewer viewer;
     Browser browser;
     browser.open(viewer.address());
-    EXPECT_TRUE(browser.becomes_true("document.getElementById('state').innerText.includes('none yet')"));
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('state').innerText.includes('no figures yet')"));
     viewer.show("figure-1.pdf", figure_titled("First"));
     EXPECT_TRUE(browser.becomes_true("document.querySelector('img')?.naturalWidth > 100"));
     viewer.show("figure-2.pdf <b>", figure_titled("Second"));
@@ -78,7 +78,7 @@ TEST(figure_viewer, speaks_the_language_of_the_browser) {
 TEST(figure_viewer, speaks_a_language_that_came_with_a_catalog) {
     add_language("eo",
                  "msgctxt \"decimal sign\"\nmsgid \".\"\nmsgstr \",\"\n\nmsgid \"Figures\"\nmsgstr "
-                 "\"Figuroj\"\n\nmsgid \"none yet: enter, for example, {}\"\nmsgstr \"tajpu {1}: ankoraŭ neniu\"\n");
+                 "\"Figuroj\"\n\nmsgid \"no figures yet; enter, for example, {}\"\nmsgstr \"tajpu {1}: ankoraŭ neniu\"\n");
     FigureViewer viewer;
     Browser browser;
     browser.devtools("Network.setUserAgentOverride", R"({"userAgent": "Chromium", "acceptLanguage": "eo-XX"})");

@@ -47,9 +47,9 @@ TEST_F(preview_memory, is_whole_at_once_when_it_is_opened_again) {
     ASSERT_TRUE(browser.becomes_true(whole));
     EXPECT_TRUE(browser.becomes_true("document.querySelectorAll('[data-state=recalled]').length > 2"));
     EXPECT_EQ(browser.evaluate(pieces), first);
-    EXPECT_TRUE(browser.becomes_true("document.getElementById('state').innerText.startsWith('of the previous run')"));
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('state').innerText.startsWith('results of the previous run')"));
     EXPECT_TRUE(browser.becomes_true(
-        "!document.getElementById('stop').hidden && document.getElementById('state').innerText === 'of the previous "
+        "!document.getElementById('stop').hidden && document.getElementById('state').innerText === 'results of the previous "
         "run; running again' && document.querySelectorAll('[data-state=recalled]').length > 2"));
     browser.evaluate("for (const node of document.querySelectorAll('.piece')) node.seen = true");
     preview.go_on();
@@ -84,7 +84,7 @@ TEST_F(preview_memory, cached_pages_do_not_hide_changes) {
         preview.hold();
         Browser browser;
         browser.open(preview.address());
-        ASSERT_TRUE(browser.becomes_true("document.getElementById('state').innerText.includes('of the previous run')"));
+        ASSERT_TRUE(browser.becomes_true("document.getElementById('state').innerText.includes('results of the previous run')"));
         written("21");
         preview.go_on();
         EXPECT_TRUE(shows(browser, "x is 21"));
@@ -124,7 +124,7 @@ TEST_F(preview_memory, a_run_behind_a_cached_page_can_be_stopped) {
     browser.click("#stop");
     preview.go_on();
     EXPECT_TRUE(browser.becomes_true("document.getElementById('stop').hidden"));
-    EXPECT_EQ(browser.evaluate("return document.getElementById('state').innerText"), "\"of the previous run\"");
+    EXPECT_EQ(browser.evaluate("return document.getElementById('state').innerText"), "\"results of the previous run\"");
     EXPECT_TRUE(shows(browser, "over"));
 }
 

@@ -112,7 +112,7 @@ TEST_F(preview_submission, each_thing_is_counted_once_and_points_are_shown) {
     Browser browser;
     browser.open(preview.address());
     const std::string reported = "document.getElementById('show-findings').innerText";
-    EXPECT_TRUE(browser.becomes_true("/1 answer open, 2 rules violated.*0 of 3 points/.test(" + reported + ")", 120))
+    EXPECT_TRUE(browser.becomes_true("/1 answer missing, 2 rules violated.*0 of 3 points/.test(" + reported + ")", 120))
         << browser.evaluate("return " + reported);
     browser.click("#show-findings");
     const std::string panel = browser.evaluate("return document.getElementById('findings').innerText");

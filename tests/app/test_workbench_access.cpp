@@ -46,7 +46,7 @@ TEST_F(workbench_access, keys_alone_lead_from_a_file_to_a_model_and_its_figure_i
     Browser browser;
     browser.open(program->address());
     ASSERT_TRUE(browser.becomes_true("document.querySelectorAll('#steps select option').length > 1"));
-    ASSERT_TRUE(tab_to(browser, "course data and files here"));
+    ASSERT_TRUE(tab_to(browser, "course data sets, and files in this folder"));
     key(browser, "z");  // the only name that begins so
     ASSERT_TRUE(says(browser, "Use these data"));
     ASSERT_TRUE(tab_to(browser, "Use these data"));

@@ -139,7 +139,7 @@ TEST_F(workbench_channels, a_search_left_over_from_other_channels_is_fixed_or_de
         const auto program = app("mine.lua", {"--run"});
         Browser browser;
         browser.open(program->address());
-        ASSERT_TRUE(says(browser, "orders1 compares structures of one output, but data has near, far."));
+        ASSERT_TRUE(says(browser, "orders1 compares structures of one output, but data has the outputs near, far."));
         ASSERT_TRUE(press(browser, fixes ? "Search for far" : "Delete: orders1"));
         EXPECT_TRUE(browser.becomes_true("document.getElementById('trouble').hidden"));
         EXPECT_TRUE(view_appears(browser, "compare")) << "the steps behind it are made";
@@ -209,7 +209,7 @@ TEST_F(workbench_channels, a_view_that_was_asked_for_is_in_sight) {
     ASSERT_TRUE(press(browser, "First order"));
     EXPECT_TRUE(is_in_sight(browser, "reading"));
     EXPECT_TRUE(browser.becomes_true(
-        "/63 % of the change after [\\d.]+ s\\. /.test(document.querySelector('.tile[data-view=reading] "
+        "/63 % of its change after T = [\\d.]+ s and /.test(document.querySelector('.tile[data-view=reading] "
         ".told').textContent)"));
     for (const auto& [words, view] : {std::pair("Spectrum", "spectrum"), std::pair("Nyquist", "nyquist")}) {
         ASSERT_TRUE(press(browser, words));

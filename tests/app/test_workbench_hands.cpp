@@ -81,7 +81,7 @@ TEST_F(workbench_hands, a_click_that_never_gets_through_is_reported) {
     evaluate(
         "window.fetch = async (path, how) => (path === 'script' ? new Response('', { status: 409 }) : plain(path, "
         "how)); named('New model').click();");
-    EXPECT_TRUE(says(browser, "Not applied: another program keeps changing the script"));
+    EXPECT_TRUE(says(browser, "Not applied, because another program keeps changing the script"));
 }
 
 TEST_F(workbench_hands, a_drag_is_one_step_of_the_history_even_where_its_first_move_is_overtaken) {

@@ -33,7 +33,7 @@ class workbench_reports : public workbench_page {
         browser.evaluate(
             "[...document.querySelectorAll('#steps summary')].filter((one) => one.textContent.startsWith('Open data') "
             "&& !one.parentNode.open).forEach((one) => one.click())");
-        choose(browser, "course data and files here", "crane");
+        choose(browser, "course data sets, and files in this folder", "crane");
         ASSERT_TRUE(browser.becomes_true("document.querySelectorAll('#steps .chip').length > 3"));
     }
     const Workbench shell;

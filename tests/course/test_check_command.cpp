@@ -42,7 +42,7 @@ TEST(check_command, a_sound_folder_passes_with_one_line_and_is_left_as_it_was) {
     const ChildResult result = bench.dynlab({"check", "mine"});
     EXPECT_EQ(result.exit_code, 0) << result.error_output;
     EXPECT_EQ(result.output,
-              "mine: nothing to fix; checked: run from a clean copy, 1 page of at most 1, 0 numbered figures, unfilled "
+              "mine: nothing to fix; checked: run from a clean copy, 1 page (limit: 1), 0 numbered figures, unfilled "
               "slots, English only, text size and margins.\n");
     EXPECT_THAT(result.error_output, IsEmpty());
     EXPECT_EQ(listing(bench), before);
@@ -149,7 +149,7 @@ TEST(check_command, students_without_a_searched_number_are_reported) {
     EXPECT_THAT(
         bench.dynlab({"check", "mine", "--roster", "short.csv"}).error_output,
         HasSubstr(
-            "short.csv: ids with fewer than 3 letters and digits are not searched for in documents (2, such as s1)"));
+            "short.csv: ids with fewer than 3 letters and digits are not searched for in documents (number of these ids: 2; example: s1)"));
     bench.write("long.csv", "id,name\n20214711,Bo Ek\n");
     EXPECT_THAT(bench.dynlab({"check", "mine", "--roster", "long.csv"}).error_output, Not(HasSubstr("long.csv")));
 }
@@ -309,7 +309,7 @@ TEST(check_command, a_pdf_is_checked_by_itself_against_the_template_asked_for) {
     bench.write("own.md", "---\npages: 1\n---\n");
     const ChildResult own = bench.dynlab({"check", "--template", "own.md", "--", "-odd; name.pdf"});
     EXPECT_EQ(own.exit_code, 0) << own.output;
-    EXPECT_THAT(own.output, HasSubstr("checked as own: 1 page of at most 1"));
+    EXPECT_THAT(own.output, HasSubstr("checked as own: 1 page (limit: 1)"));
 }
 
 TEST(check_command, misuse_ends_with_two) {

@@ -55,7 +55,7 @@ TEST_F(corrections, a_time_of_receipt_is_corrected_by_a_further_receipt) {
     EXPECT_THAT(status(), HasSubstr("v1 late 7 h"));
     const std::string before = signed_rows();
     EXPECT_THAT(course({"set-received", "crane", "group-01", "2026-03-01 11:30", "--reason", ""}).error_output,
-                HasSubstr("give the reason"));
+                HasSubstr("give a reason"));
     EXPECT_EQ(course({"set-received", "crane", "group-02", "2026-03-01 11:30", "--reason", "x"}).exit_code, 1);
     done({"set-received", "crane", "group-01", "2026-03-01 11:30", "--reason", "the platform's log"});
     EXPECT_THAT(status(), Not(HasSubstr("late")));
@@ -228,7 +228,7 @@ TEST_F(corrections, a_penalty_of_half_the_points_waits_for_the_instructor) {
     done({"scores", "crane", "s.csv"});
     const auto marks = [&] { return done({"marks", "crane", "--at", "2026-03-04 12:00"}); };
     EXPECT_THAT(marks(),
-                AllOf(HasSubstr("100.0"), HasSubstr("60 for a first version late by 1 d 23 h are not applied until")));
+                AllOf(HasSubstr("100.0"), HasSubstr("60 % for a first version late by 1 d 23 h is not deducted until")));
     const ChildResult confirmed =
         course_.submit_file("group-01.pdf", small_pdf("one"), "2026-03-04 11:00", {"--no-checks", "--accept-late"});
     EXPECT_EQ(confirmed.exit_code, 0) << confirmed.error_output;

@@ -73,7 +73,7 @@ TEST(custom_checks, marked_by_hand_wait_for_their_points) {
     EXPECT_EQ(bench.bench().read("out/marks.csv"),
               "who,check,points,reason,of,about,rubric\r\na,text,,,4,Question 3,two reasons\r\n");
     EXPECT_THAT(bench.bench().read("out/gradebook.csv"), HasSubstr(",a,partly ungraded,,5,"));
-    EXPECT_THAT(bench.bench().read("out/summary.md"), HasSubstr("manual marks are missing in marks.csv"));
+    EXPECT_THAT(bench.bench().read("out/summary.md"), HasSubstr("manual marks are missing from marks.csv"));
     bench.bench().write("out/marks.csv",
                         "submission;check;points;comment;of\na;text;2,5;one reason of two;4\na;x;;not looked at;2\n");
     const ChildResult marked = bench.grade({"--checks", "own"});
@@ -243,7 +243,7 @@ TEST(custom_checks, mistakes_in_them_are_reported_with_file_and_line) {
     EXPECT_THAT(complaint("\n\ncheck{id = 'y', test = function(a)\n  return nothing.at.all end}\n"),
                 HasSubstr("mine.lua:4"));
     EXPECT_THAT(complaint("check{id = 'y', test = function(a) return 5 end}\n"),
-                HasSubstr("a test returned 5; expected a share from 0 to 1"));
+                HasSubstr("a test returned 5; expected a number from 0 to 1"));
     EXPECT_THAT(complaint("check{id = 'y', document = true, test = function(a) return no_finding() end}\n"),
                 HasSubstr("lesson 99_small has no document"));
     EXPECT_THAT(complaint("check{id = 'y', by_hand = true, test = function() end}\n"), HasSubstr("is marked manually"));

@@ -33,7 +33,7 @@ TEST_F(document_findings, a_sound_report_has_none_and_the_summary_says_what_was_
     EXPECT_THAT(texts_of(result.checked), Contains("9 sections"));
     EXPECT_THAT(texts_of(result.checked), Contains("1 numbered figure"));
     EXPECT_THAT(texts_of(result.checked), Contains("English only"));
-    EXPECT_THAT(texts_of(result.checked), Contains(HasSubstr("of at most 6 + 1 in the appendix")));
+    EXPECT_THAT(texts_of(result.checked), Contains(HasSubstr("(limit: 6, plus 1 in the appendix)")));
 }
 
 TEST_F(document_findings, a_sound_french_report_has_none) {

@@ -18,7 +18,7 @@ CheckResult some_result() {
                        "en",
                        "",
                        7,
-                       {Message("{} pages of at most {}", 7, 6), Message("unfilled slots")},
+                       {Message("{} pages (limit: {})", 7, 6), Message("unfilled slots")},
                        {}};
     result.findings = {{"language-mixed", Severity::kHint, 2, "", Message("A hint."), Message("Look at it.")},
                        {"pages", Severity::kRule, 7, "", Message("It is long."), Message("Shorten it.")},
@@ -31,7 +31,7 @@ CheckResult some_result() {
 
 TEST(findings_report, rules_come_before_hints_with_place_and_remedy) {
     EXPECT_EQ(issues_as_text(some_result(), false),
-              "report.pdf: checked as lab_report: 7 pages of at most 6, unfilled slots\n"
+              "report.pdf: checked as lab_report: 7 pages (limit: 6), unfilled slots\n"
               "\nRules violated (3)\n"
               "\n  answer-open\n    analysis.lua:12: " +
                   std::string(30, 'x') + "\n    " + std::string(80, 'y') +
@@ -47,14 +47,14 @@ TEST(findings_report, answers_and_checks_of_the_lesson_are_counted_by_themselves
     result.findings.push_back({"answer-missing", Severity::kRule, 0, "", Message("Missing."), Message("Give it.")});
     result.findings.push_back({"check-failed", Severity::kHint, 0, "", Message("Lost."), Message("Look.")});
     const std::string words = issues_as_text(result, false);
-    for (const char* const title : {"Open answers (1)", "Rules violated (3)", "Hints (1)", "Checks of the lesson (1)"})
+    for (const char* const title : {"Missing answers (1)", "Rules violated (3)", "Hints (1)", "Checks of the lesson (1)"})
         EXPECT_THAT(words, HasSubstr(std::string("\n") + title + "\n"));
 }
 
 TEST(findings_report, hints_alone_say_that_no_rule_is_broken) {
     CheckResult result = some_result();
     result.findings.erase(result.findings.begin(), result.findings.begin() + 3);
-    EXPECT_THAT(issues_as_text(result, false), HasSubstr("\nNo rule is violated.\n"));
+    EXPECT_THAT(issues_as_text(result, false), HasSubstr("\nNo rules are violated.\n"));
     EXPECT_THAT(issues_as_text(result, false), Not(HasSubstr("Rules violated")));
 }
 
@@ -62,7 +62,7 @@ TEST(findings_report, a_pass_is_one_line_that_says_what_was_checked) {
     CheckResult result = some_result();
     result.findings.clear();
     EXPECT_EQ(issues_as_text(result, false),
-              "report.pdf: nothing to fix; checked as lab_report: 7 pages of at most 6, unfilled slots.\n");
+              "report.pdf: nothing to fix; checked as lab_report: 7 pages (limit: 6), unfilled slots.\n");
 }
 
 TEST(findings_report, color_only_when_asked_for) {

@@ -40,7 +40,7 @@ TEST(grade_export, gives_platforms_what_they_import) {
               "out/handed_back/moodle-grades.csv\nout/handed_back/moodle-feedback.zip\n"
               "out/handed_back/canvas-grades.csv\nout/handed_back/mail.csv\n");
     EXPECT_EQ(back.exit_code, 1);
-    EXPECT_THAT(back.error_output, HasSubstr("Rudolf Kalman is missing in moodle-grades.csv"));
+    EXPECT_THAT(back.error_output, HasSubstr("Rudolf Kalman is missing from moodle-grades.csv"));
     EXPECT_THAT(back.error_output, Not(HasSubstr("Nobody")));
     const std::string moodle = work.read("out/handed_back/moodle-grades.csv");
     EXPECT_THAT(moodle,

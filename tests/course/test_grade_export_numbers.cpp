@@ -59,7 +59,7 @@ TEST_F(grade_export_numbers, the_number_in_the_folder_s_name_takes_precedence) {
     const GradeExport back = write_grade_export(request_);
     EXPECT_THAT(read("moodle-grades.csv"), AllOf(HasSubstr("Participant 99345,Élise Lefèvre,13,17"),
                                                  Not(HasSubstr("12345")), Not(HasSubstr("12346"))));
-    EXPECT_THAT(reported(back.notes), HasSubstr("1 participant number in the roster's column moodle differs"));
+    EXPECT_THAT(reported(back.notes), HasSubstr("1 participant number in the roster's column \"moodle\" differs"));
     // The partner's number in the roster is of the same other assignment.
     EXPECT_THAT(reported(back.complaints), AllOf(HasSubstr("Ravi Rao is missing"), HasSubstr("--worksheet")));
 }
@@ -103,7 +103,7 @@ TEST_F(grade_export_numbers, a_look_leaves_feedback_new_until_it_is_delivered) {
     EXPECT_EQ(record_delivery(folder_.path()), 3);
     const GradeExport again = write_grade_export(request_);
     EXPECT_EQ(new_ones(), 0);
-    EXPECT_THAT(reported(again.notes), HasSubstr("all feedback was delivered"));
+    EXPECT_THAT(reported(again.notes), HasSubstr("all feedback was already delivered"));
     EXPECT_FALSE(std::filesystem::exists(folder_.path() / "handed_back/moodle-feedback.zip"));
     add("Zoë K_99400_assignsubmission_file_", "opened after all");
     write_grade_export(request_);

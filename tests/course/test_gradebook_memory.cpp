@@ -127,7 +127,7 @@ TEST(gradebook_memory, the_terminal_lists_what_the_summary_lists) {
     const ChildResult graded = bench.grade({"--roster", "roster.csv", "--deadlines", "deadlines.csv"});
     for (const char* sentence :
          {"the script of \"group-1\" stopped: ", "\"group-3\" cannot be read: ",
-          "\"group-2\" was late and loses 0.2 points: ", "group-2 has several submissions; the best submission counts"})
+          "\"group-2\" was late and loses 0.2 points: ", "group-2 has several submissions. The best submission, "})
         EXPECT_THAT(graded.output, HasSubstr(sentence));
     const std::string listed = work.shell("sed -n '/Needs attention/,/^# /p' out/summary.md | grep -c '^- '").output;
     EXPECT_THAT(graded.output, HasSubstr(listed.substr(0, listed.find('\n')) + " notes need attention"));
@@ -338,7 +338,7 @@ TEST(gradebook_memory, the_better_or_the_newest_submission_counts) {
         EXPECT_THAT(book, HasSubstr(fmt::format("1,Anna Müller,{},graded,{},2,",
                                                 points[0] == '2' ? "Anna Müller" : "Zoë Ade", points)));
         EXPECT_THAT(work.read("out/summary.md"),
-                    HasSubstr(fmt::format("group-1 has several submissions; the {} submission counts",
+                    HasSubstr(fmt::format("group-1 has several submissions. The {} submission, ",
                                           points[0] == '2' ? "best" : "newest")));
     }
 }

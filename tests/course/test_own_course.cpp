@@ -158,7 +158,7 @@ TEST_F(own_course, checks_that_do_not_do_what_they_are_for_are_reported) {
              {"lesson.lua",
               "-- BEGIN SOLUTION\nanswer(\"noise\", std(record.y - compliance*record.u))\n-- END SOLUTION",
               "answer(\"noise\", std(record.y - 0.4*record.u))\n",
-              "lesson.lua: the untouched starter gets points for the check \"noise\""},
+              "lesson.lua: the unchanged starter script gets points for the check \"noise\""},
              {"checks.lua", "return near(a.noise,", "return near(nil,",
               "lesson.lua: the reference solution does not pass the check \"noise\""},
          })

@@ -52,9 +52,9 @@ TEST(packed_submissions, the_report_of_a_pack_counts) {
                 AllOf(ContainsRegex("group-01 +pack +v1"), ContainsRegex("group-01 +report \\(from the pack\\) +v1"),
                       ContainsRegex("group-02 +report \\(from the pack\\) +v1 +in time +[1-9][0-9]* rule"),
                       ContainsRegex("group-03 +pack .*the pack contains no PDF, and none can be created from it "
-                                    "\\(.*stopped.*\\): ask for this file"),
+                                    "\\(.*stopped.*\\): ask the group for this file"),
                       ContainsRegex("group-04 +pack .*the pack contains 2 PDF files; exactly one must be named "
-                                    "report.pdf: ask for this file"),
+                                    "report.pdf: ask the group for this file"),
                       HasSubstr("6 files accepted")));
     const std::string packed = bench.bench().shell("sha256sum < work-group-01/report.pdf").output.substr(0, 64);
     EXPECT_EQ(report_hash(bench, "group-01"), packed + "\n");
@@ -123,7 +123,7 @@ TEST(packed_submissions, a_pack_is_a_review_only_with_a_pdf) {
     EXPECT_THAT(bench.course({"status", "--at", "2026-03-09 11:00"}).output, HasSubstr("crane"));
     EXPECT_THAT(bench.course({"status", "crane", "--at", "2026-03-09 11:00"}).output,
                 AllOf(ContainsRegex("group-01 +1 +v1[^\n]* 0 of 1 [^\n]*the pack contains no PDF with its review of "
-                                    "report-[0-9]+: ask for this file"),
+                                    "report-[0-9]+: ask the group for this file"),
                       Not(HasSubstr("send a reminder")), ContainsRegex("group-02 +1 +v1[^\n]* 1 of 1, 1 late")));
 }
 
@@ -171,7 +171,7 @@ TEST(packed_submissions, a_first_version_after_the_reviews_is_asked_about) {
     EXPECT_EQ(late.exit_code, 1);
     EXPECT_THAT(late.error_output,
                 HasSubstr("the reviews of group-02 are already due: did you mean dynlab course submit "
-                          "--stage final? --first submits a first version anyway"));
+                          "--stage final? To submit a first version anyway, give --first"));
     EXPECT_EQ(bench.dump(), before);
     bench.bench().shell(
         "sqlite3 k/course.db \"INSERT INTO sendings (pair, way, version, hash, made_at) SELECT pair, 'to author', "

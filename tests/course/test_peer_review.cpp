@@ -174,7 +174,7 @@ TEST(peer_review, exports_and_imports_an_equal_store) {
     EXPECT_THAT(refusal(R"({"dynlab course": 1, "tables": {"course": [{"key": {}}], "files": []}})"),
                 HasSubstr("tables[\"course\"][1][\"key\"]: expected a string"));
     EXPECT_THAT(refusal(R"({"dynlab course": 1, "tables": {"course": [{"key": "name"}], "files": []}})"),
-                HasSubstr("a row has no value \"value\""));
+                HasSubstr("a row has no value for \"value\""));
     EXPECT_THAT(refusal(R"({"dynlab course": 1, "tables": {"course": [], "files": []}})"),
                 HasSubstr("the course's name is missing"));
 }

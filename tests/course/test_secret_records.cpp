@@ -51,7 +51,7 @@ TEST(secret_records, a_data_set_that_was_submitted_names_no_files_of_others) {
             EXPECT_THAT(
                 error_reason,
                 HasSubstr(
-                    "mine/SOURCE.md: \"Course file:\" must be followed by file names in that folder, but the path \"" +
+                    "mine/SOURCE.md: \"Course file:\" must be followed by names of files in the folder of the data set, but the path \"" +
                     place + "\" was given"))
                 << level;
         }

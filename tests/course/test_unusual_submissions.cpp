@@ -152,7 +152,7 @@ TEST(unusual_submissions, what_canvas_calls_late_is_reported_where_the_time_does
     bench.bench().write("in/student1_LATE_31_77_report.pdf", small_pdf("1"));
     bench.bench().write("in/student2_32_78_report.pdf", small_pdf("2"));
     EXPECT_THAT(reported(bench.course({"submit", "in", "--at", kInTime, "--no-checks", "--isolation", bench.level()})),
-                AllOf(ContainsRegex("group-01 +report +v1 +in time +marked late by the platform: see --times"),
+                AllOf(ContainsRegex("group-01 +report +v1 +in time +marked late by the platform: enter the time of receipt with --times"),
                       ContainsRegex("group-02 +report +v1 +in time *\n")));
 }
 

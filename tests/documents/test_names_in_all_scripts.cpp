@@ -136,8 +136,8 @@ TEST_F(names_in_all_scripts, each_name_is_text_of_its_font_and_ink) {
         EXPECT_GT(dark, all / 40) << name.text;
     }
     EXPECT_EQ(notes(),
-              "report.md:7: LuaLaTeX creates this PDF, which takes longer, because pdflatex cannot print \"◌̀\" "
-              "(U+0300)\n");
+              "report.md:7: Because pdflatex cannot print \"◌̀\" "
+              "(U+0300), LuaLaTeX creates this PDF, which takes longer\n");
     EXPECT_EQ(producer_of(pdf), "LuaTeX");
 }
 
@@ -199,7 +199,7 @@ TEST_F(names_in_all_scripts, only_a_letter_that_no_font_has_is_replaced) {
     const auto pdf = make("Дмитрий \uE000 and \uE001 é\n", "out.pdf");
     EXPECT_THAT(text_of(pdf), HasSubstr("Дмитрий ? and ? é"));
     EXPECT_THAT(notes(),
-                HasSubstr("report.md:1: no installed font has these letters. They are printed as \"?\": \uE000 "
+                HasSubstr("report.md:1: no installed font has the following letters, which are printed as \"?\": \uE000 "
                           "(U+E000, line 1), \uE001 (U+E001, line 1). To add fonts, run sudo apt install fonts-noto"));
 }
 
@@ -221,7 +221,7 @@ TEST_F(names_in_all_scripts, without_lualatex_single_letters_are_replaced_and_th
     EXPECT_EQ(producer_of(pdf), "pdfTeX");
     EXPECT_THAT(text_of(pdf), HasSubstr("Élise, Björn – ??, ọ"));
     EXPECT_EQ(notes(),
-              "report.md:1: pdflatex cannot print these letters, and LuaLaTeX is not installed. They are printed as "
+              "report.md:1: LuaLaTeX is not installed, and pdflatex cannot print the following letters, which are printed as "
               "\"?\": \u25CC\u0300 (U+0300, line 1), Д (U+0414, line 1), я (U+044F, line 1). To print them, run sudo "
               "apt install texlive-luatex fonts-noto-core fonts-noto-cjk\n");
 }

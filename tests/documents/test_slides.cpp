@@ -80,7 +80,7 @@ TEST_F(slides, say_what_a_column_wants) {
                 HasSubstr("a column needs a width in percent"));
     EXPECT_THAT(complaint("# One\n\n::: columns\n::: {.column width=5cm}\ntext\n:::\n:::\n"), HasSubstr("not \"5cm\""));
     EXPECT_THAT(refusal("---\nlayout: poster\n---\n\ntext\n"),
-                HasSubstr("layout must be pages or slides, not \"poster\""));
+                HasSubstr("\"layout\" must be \"pages\" or \"slides\", not \"poster\""));
 }
 
 TEST_F(slides, want_columns_in_their_place) {

@@ -85,7 +85,7 @@ TEST(program_errors, characters_that_no_font_has_are_named_and_replaced) {
     write_folder(bench, "print(1)\n", "A shaking face: \xF0\x9F\xAB\xA8\n");
     const ChildResult made = bench.dynlab({"report", "mine"});
     EXPECT_EQ(made.exit_code, 0) << made.error_output;
-    EXPECT_THAT(made.error_output, HasSubstr("mine/report.md:5: no installed font has these letters"));
+    EXPECT_THAT(made.error_output, HasSubstr("mine/report.md:5: no installed font has the following letters"));
     EXPECT_THAT(made.error_output, HasSubstr("U+1FAE8"));
 }
 
@@ -149,7 +149,7 @@ TEST(program_errors, wrong_words_are_reported_in_all_programs_and_nothing_is_wri
     bench.write("capital/Analysis.lua", "print(1)\n");
     expect_failure(bench.dynlab({"run"}), 2, "a script FILE or -e CODE");
     expect_failure(bench.dynlab({"raport", "mine"}), 2,
-                   "dynlab: unknown command 'raport'; did you mean 'report'?\nFor more information, run with --help");
+                   "dynlab: unknown command 'raport'; did you mean 'report'?\nFor more information, run the command with --help");
     expect_failure(bench.dynlab({"course", "statu", "here"}), 2,
                    "dynlab: dynlab course has no command 'statu'; did you mean 'status'?\n");
     for (const std::string command : {"report", "check"})

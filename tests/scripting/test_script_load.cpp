@@ -30,7 +30,7 @@ TEST_F(script_load, reports_what_was_assumed_and_feeds_fillmissing) {
     EXPECT_EQ(
         says("local d = load(\"a.txt\") print(fillmissing(d.u)[2], d[\"u [V]\"][3], d.units.u)"),
         "a.txt: units from the headers: time in ms, u in V\na.txt: missing numbers were replaced with NaN: 1 of 3 in u "
-        "(first in line 3); use fillmissing(u, {method = \"previous\"}) for an input that is logged only when it "
+        "(first in line 3). Use fillmissing(u, {method = \"previous\"}) for an input that is logged only when it "
         "changes, "
         "and fillmissing(y) for an output\na.txt: the numbers have a decimal comma, as in 3,5\n2.25\t3.5\tV\n");
     EXPECT_THAT(complains("print(load(\"a.txt\").y)"), HasSubstr("have no variable 'y'; they have time, u"));

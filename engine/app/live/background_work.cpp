@@ -96,7 +96,7 @@ BackgroundWork::Made BackgroundWork::make(std::vector<std::string> command) {
     try {
         const ChildResult result = run_child(child, "dynlab");
         CommandMessages said = read_command_messages(messages);
-        if (result.timed_out) said.complaints.push_back(Message("the operation took longer than ten minutes"));
+        if (result.timed_out) said.complaints.push_back(Message("dynlab stopped the operation after ten minutes"));
         made = {result.exit_code == 0,
                 said.empty() ? Message::verbatim(result.output + result.error_output) : said.all()};
     } catch (const std::exception& error) {
@@ -192,7 +192,7 @@ BackgroundWork::Pdf BackgroundWork::made_pdf(const std::map<std::string, double>
     try {
         const ChildResult made = run_child(child, "dynlab");
         if (fs::exists(file)) return {read_file(file), {}};
-        if (made.timed_out) return {{}, Message("creating the PDF took longer than ten minutes")};
+        if (made.timed_out) return {{}, Message("dynlab stopped creating the PDF after ten minutes")};
         const CommandMessages said = read_command_messages(messages);
         return {{}, said.empty() ? Message::verbatim(made.error_output) : said.all()};
     } catch (const std::exception& error) {

@@ -47,7 +47,8 @@ void PageNotes::put(const PageNote& note) {
     else
         notes[note.name] = note.text;
     const std::string text = json_of(notes);
-    if (text.size() > kMaxBytes) throw EnvironmentError("the drafts of a page exceed the limit of 8 MB");
+    if (text.size() > kMaxBytes)
+        throw EnvironmentError("the drafts of a page exceed the limit of 8 MB; save or discard some of the drafts");
     fs::create_directories(file_.parent_path());
     fs::permissions(file_.parent_path(), fs::perms::owner_all);
     write_file_atomically(file_, text);

@@ -56,8 +56,10 @@ SourceFiles::Outcome SourceFiles::save(const SourceText& saved) {
     if (there && there->digest != saved.digest) return {false, *std::move(there)};
     const fs::path& file = files_[saved.number];
     if (!there && fs::exists(file))
-        throw EnvironmentError("{} was not saved: another program changed the file, and it is no longer UTF-8 text",
-                               file.string());
+        throw EnvironmentError(
+            "{} was not saved, because another program replaced its text with text that is not UTF-8. Convert the file "
+            "to UTF-8",
+            file.string());
     if (in_utf8(saved.text) != saved.text)
         throw EnvironmentError("{} was not saved: the text is not UTF-8", file.string());
     write_file_atomically(file, saved.text);

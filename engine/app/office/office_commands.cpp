@@ -85,7 +85,8 @@ OfficeCommand office_command(const Words& words) {
         if (word.size() > kMaxBytes || word.empty() || terminal_text(word) != word ||
             word.find_first_of("\n\t") != word.npos)
             throw EnvironmentError(
-                "a word of a command must have 1 to {} bytes and must not contain control characters", kMaxBytes);
+                "each argument of a command must have 1 to {} bytes and must not contain control characters",
+                kMaxBytes);
         if (word.starts_with('-')) {
             const std::string name = name_of_option(word);
             if (!allowed->options.contains(name))

@@ -13,12 +13,12 @@ addWords({
   noCheck: tr("No check receives the marks of this question. Choose a check, or add a check with by_hand = true."),
   noWork: tr("This lab has no submissions yet."), beingRead: trPlural("{} submission is being read", "{} submissions are being read"),
   noAnswer_: tr("no answer"), unreadable_: tr("cannot be read: {}"), sameAs: trPlural("the same text in {} other submission", "the same text in {} other submissions"),
-  whole: tr("Show all ({} kB)"), comment: tr("Comment"), commentAbout: tr("Comment for the student"), otherPoints: tr("Other points"),
-  pointsOf: tr("{} of {}"), noMark: tr("not marked"), changed: tr("was changed elsewhere"), undo: tr("Undo"), showKeys: tr("Keys: ?"),
+  whole: tr("Show all ({} kB)"), comment: tr("Comment"), commentAbout: tr("Comment for the student"), otherPoints: tr("Other number of points"),
+  pointsOf: tr("{} of {}"), noMark: tr("not marked"), changed: tr("was changed elsewhere"), undo: tr("Undo"), showKeys: tr("Press ? for the keys"),
   rubric: tr("Points"), notGradedYet: tr("The lab is not graded yet, so the maximum points of this check are unknown."),
   keyDigits: tr("award these points and go to the next answer"), keyEnter: tr("award all points and go to the next answer"),
-  keyMove: tr("next, previous answer"), keyComment: tr("write a comment"), keyLetters: tr("add or remove a comment that was used before"),
-  keyPoints: tr("enter other points"), keyUndo: tr("undo the last mark entered in this window"), keyWhole: tr("show all of a long answer"),
+  keyMove: tr("go to the next or previous answer"), keyComment: tr("write a comment"), keyLetters: tr("add or remove a comment that was used before"),
+  keyPoints: tr("enter another number of points"), keyUndo: tr("undo the last mark entered in this window"), keyWhole: tr("show all of a long answer"),
   keyHelp: tr("show these keys"), nothingToUndo: tr("Nothing to undo."), enter: tr("Enter"),
 
   // Today
@@ -26,12 +26,12 @@ addWords({
   submitted: tr("{} of {} submitted"), countLate: tr("{} late"), countUnreadable: tr("{} unreadable"), countMissing: tr("{} missing"),
   dueFirst: trIn("deadline", "due {}"), dueReview: tr("reviews due {}"), dueFinal: tr("final version due {}"), next: tr("Next: {}"),
   remind: tr("Remind"), remindAll: tr("Remind all"), extend: tr("Extend"), accept: tr("Accept"), askAgain: tr("Ask again"),
-  takeFile: tr("Accept this file"), drop: tr("Drop out"), release: tr("Release"), assign: tr("Assign"), send: tr("Send"),
+  takeFile: tr("Accept this file"), drop: tr("Mark as dropped out"), release: tr("Release"), assign: tr("Assign"), send: tr("Send"),
   acceptTime: tr("Apply the penalty"), extendTo: tr("New deadline"), notTaken: tr("Files that were not accepted"), show: tr("Show"),
   missingFirst: tr("Missing"), missingFinal: tr("Final version missing"), missingReview: tr("Reviews missing"), missingScript: tr("Script missing"),
   unreadable: tr("Unreadable"), noPdf: tr("No PDF in the pack"), late: tr("Late"), lateWaits: tr("Late: a large penalty needs your confirmation"),
   sameFile: tr("The same file"), kin: tr("Reviews a report by a current or former group member"), held: tr("Withheld"),
-  stopped: tr("Blocked: a name was found"), newerReport: tr("A newer version than the version that was sent"), newerReview: tr("A newer review than the review that was released"),
+  stopped: tr("Blocked: a name was found"), newerReport: tr("A version newer than the version that was sent"), newerReview: tr("A review newer than the released review"),
   unassigned: tr("Arrived after the allocation"), dropped: tr("Dropped out"), costs: tr("{} % deducted"),
 
   // Student

@@ -4,14 +4,14 @@ import { addWords, tr, trIn, trPlural } from "./words.js";
 addWords({
   // The bar and its messages about the run
   bar: tr("Document"), runAll: tr("Run all"), runAllAbout: tr("Run every cell again"), pdf: tr("PDF"),
-  asPrinted: tr("The document as printed"), toMistake: tr("Go to error"), ofBefore: tr("of the previous run"),
-  ofBeforeRunning: tr("of the previous run; running again"), cellOf: tr("cell {} of {}"),
+  asPrinted: tr("The document as printed"), toMistake: tr("Go to error"), ofBefore: tr("results of the previous run"),
+  ofBeforeRunning: tr("results of the previous run; running again"), cellOf: tr("cell {} of {}"),
   stoppedAfter: tr("stopped: {} of {} cells were run"), cells: trPlural("{} cell, {} s", "{} cells, {} s"),
-  ended: tr("dynlab has exited; this is the last page"),
-  lost: tr("dynlab does not respond: restart dynlab and open the new address; your text is still here"),
+  ended: tr("dynlab has exited; this is the last version of the page"),
+  lost: tr("dynlab does not respond. Restart dynlab and open the new address; your text is still here"),
   asked: tr("This document runs programs. Run it?"),
   askedAbout: tr("The text of the document is shown below. Answer yes only if you trust its source."),
-  askedAboutOwn: tr("dynlab new created the folder of this document on this computer. The text of the document is shown below."),
+  askedAboutOwn: tr("The command \"dynlab new\" created the folder of this document on this computer. The text of the document is shown below."),
   notPrinted: tr("{}: code that is not printed"), asInScript: tr("Reset"),
 
   // The editor
@@ -37,9 +37,9 @@ addWords({
 
   // What dynlab check finds
   found: tr("Issues found by dynlab check"), onPage: tr("page {}"), checked: tr("checked"), checking: tr("checking: {} %"),
-  openAnswers: trPlural("{} answer open", "{} answers open"), brokenRules: trPlural("{} rule violated", "{} rules violated"),
+  openAnswers: trPlural("{} answer missing", "{} answers missing"), brokenRules: trPlural("{} rule violated", "{} rules violated"),
   hints: trPlural("{} hint", "{} hints"), points: tr("{} of {} points"),
-  older: tr("results for the files before the last change; checking again"),
+  older: tr("results from before the last change; checking again"),
   notGiven: tr("Missing answers"), toMend: tr("To fix"), remarks: tr("Hints"),
   checksOfLesson: tr("Checks of the lesson: {}"), nothingToMend: tr("dynlab check found no problems."),
   // The kinds of answers, as a script's header names them
@@ -48,7 +48,7 @@ addWords({
   model: trIn("kind of answer", "model"), response: trIn("kind of answer", "response"), table: trIn("kind of answer", "table"),
 
   // The page of a prompt's figures
-  figures: tr("Figures"), noFigures: tr("none yet: enter, for example, {}"),
-  lastFigures: tr("dynlab has exited; these are its last figures"),
+  figures: tr("Figures"), noFigures: tr("no figures yet; enter, for example, {}"),
+  lastFigures: tr("dynlab has exited; this page shows the last figures"),
 });
 export { inEnglish, label, language, number, say, typeset, useLanguage } from "./words.js";

@@ -66,7 +66,7 @@ const FIGURES = {
     tr("measured and simulated outputs")],
   residuals: [({ validation }, models) => `(resid(${partOf(validation, models.at(-1))}, ${models.at(-1)}))`,
     tr("Autocorrelation of the simulation error, and its correlation with the input; the gray bands are confidence bounds"),
-    tr("the residual of the model")],
+    tr("the residuals of the model")],
   step: [(_, models) => together("step", models),
     tr("Step response, with its confidence band if known"),
     tr("the response to a unit step")],

@@ -139,16 +139,17 @@ int give_back(const CourseArguments& where, const ReturnArguments& args) {
     if (done.other_numbers > 0)
         std::cerr << "dynlab: note: "
                   << message_text(plural(done.other_numbers,
-                                         "{} participant number in the roster's column moodle belongs to another "
+                                         "{} participant number in the roster's column \"moodle\" belongs to another "
                                          "assignment; dynlab uses the number of this assignment",
-                                         "{} participant numbers in the roster's column moodle belong to another "
+                                         "{} participant numbers in the roster's column \"moodle\" belong to another "
                                          "assignment; dynlab uses the numbers of this assignment"))
                   << '\n';
     for (const auto& [group, files] : done.files)
         std::cout << terminal_text(fmt::format("{}: {}\n", group, fmt::join(files, ", ")));
-    std::cout << message_text(done.files.empty() ? Message("No new files to deliver.")
-                                                 : plural(static_cast<std::int64_t>(done.files.size()),
-                                                          "For {} group, in {}", "For {} groups, in {}", args.out))
+    std::cout << message_text(done.files.empty()
+                                  ? Message("No new files to deliver.")
+                                  : plural(static_cast<std::int64_t>(done.files.size()), "Files for {} group are in {}",
+                                           "Files for {} groups are in {}", args.out))
               << '\n';
     if (!done.without_mail.empty())
         std::cerr << terminal_text(

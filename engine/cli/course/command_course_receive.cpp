@@ -35,7 +35,7 @@ Message remark(const Received& r) {
     if (!r.error_reason.empty() && r.part == "pack")
         return Message("{}: ask the group for a pack that can be opened", r.error_reason);
     if (!r.error_reason.empty()) return Message("{}: ask the group for a readable file", r.error_reason);
-    if (!r.missing.empty()) return Message("{}: ask for this file", r.missing);
+    if (!r.missing.empty()) return Message("{}: ask the group for this file", r.missing);
     if (r.withdrawn) return Message("already received and withdrawn; to reinstate the file, run dynlab course restore");
     if (!r.other_time.empty())
         return Message(
@@ -49,7 +49,8 @@ Message remark(const Received& r) {
     if (!r.remark.empty()) clauses.items.push_back(r.remark);
     if (!r.twin.empty()) clauses.items.push_back(Message("the same file as {}", r.twin));
     if (!r.earlier.empty()) clauses.items.push_back(Message("the same file as {}", r.earlier));
-    if (r.marked_late) clauses.items.push_back(Message("marked late by the platform: see --times"));
+    if (r.marked_late)
+        clauses.items.push_back(Message("marked late by the platform: enter the time of receipt with --times"));
     if (r.made) clauses.items.push_back(Message("created by dynlab, because the pack contains no PDF"));
     if (r.scores > 0) clauses.items.push_back(plural(r.scores, "{} score read", "{} scores read"));
     if (r.rules_broken > 0)
@@ -242,8 +243,9 @@ int verify_course(const CourseArguments& where, const std::vector<std::string>& 
             std::cerr << "dynlab: " << terminal_text(message_text(error_reason)) << '\n';
         const Message files = plural(check.files, "{} file", "{} files"),
                       versions = plural(check.versions, "{} version", "{} versions");
-        std::cout << message_text(check.error_list.empty() ? Message("{}, {}: complete and unaltered", files, versions)
-                                                           : Message("{}, {}: see above", files, versions))
+        std::cout << message_text(check.error_list.empty()
+                                      ? Message("{}, {}: complete and unaltered", files, versions)
+                                      : Message("{}, {}: errors were found, see above", files, versions))
                   << '\n';
         well = check.error_list.empty();
     }

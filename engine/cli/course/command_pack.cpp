@@ -78,8 +78,7 @@ int pack(const PackArguments& words) {
     }
     const Pack pack = pack_folder(folder, file);
     for (const std::string& name : pack.files) say(Message::verbatim(name));
-    for (const std::string& name : pack.left_out)
-        complain(Message("left out, because it is not a regular file: {}", name));
+    for (const std::string& name : pack.left_out) complain(Message("{} is not a regular file and was left out", name));
     const Message files = plural(static_cast<std::int64_t>(pack.files.size()), "{} file", "{} files");
     say(Message("{}: {}, SHA-256 {}", file.string(), files, pack.hash));
     tell_of_report(folder, words.subject);

@@ -40,13 +40,14 @@ Hints hints_of(const Lesson& lesson, const std::string& language) {
     for (const std::string& requested : {language, std::string("en")})
         if (!requested.empty() && std::filesystem::is_regular_file(lesson.hints(requested)))
             return read_hints(lesson.hints(requested));
-    throw EnvironmentError("lesson {} has no hints ({})", lesson.slug, lesson.hints("en").string());
+    throw EnvironmentError("lesson {} has no hints, because the file {} does not exist", lesson.slug,
+                           lesson.hints("en").string());
 }
 
 int list_hints(const Lesson& lesson, const Hints& hints, const std::string& name) {
     say(Message("Lesson {}\n", lesson.slug));
     for (const auto& [question, stages] : hints)
-        say(Message("question {}   {} hints, {} seen", fmt::format("{:>2}", question), stages.size(),
+        say(Message("question {}   hints: {}, seen: {}", fmt::format("{:>2}", question), stages.size(),
                     std::min(HintsSeen(lesson.slug, question).count(), stages.size())));
     say(Message("\nThe first hint for a question:  dynlab hint {} {}", name, hints.begin()->first));
     return kDone;

@@ -30,8 +30,8 @@ int make_editor_files(const std::string& folder) {
 int make_lesson(const std::string& folder) {
     for (const std::string& name : make_lesson_skeleton(folder)) std::cout << name << '\n';
     say(
-        Message("{}: a small lesson that runs; lesson.lua contains its text, code and reference solution.\nTry:  "
-                "dynlab test-lesson {}    then    dynlab report {}",
+        Message("{}: this small lesson is ready to run; lesson.lua contains its text, code and reference "
+                "solution.\nTry:  dynlab test-lesson {}    then    dynlab report {}",
                 folder, shell_word(folder), shell_word(folder)));
     return kDone;
 }

@@ -267,8 +267,10 @@ Message numbers_too_short(const std::vector<Student>& students) {
     const auto is_short = [](const Student& student) { return !is_searched_number(student.id); };
     const auto first = std::ranges::find_if(students, is_short);
     if (first == students.end()) return {};
-    return Message("ids with fewer than {} letters and digits are not searched for in documents ({}, such as {})",
-                   kMinSearchedDigits, std::ranges::count_if(students, is_short), first->id);
+    return Message(
+        "ids with fewer than {} letters and digits are not searched for in documents (number of these ids: {}; "
+        "example: {})",
+        kMinSearchedDigits, std::ranges::count_if(students, is_short), first->id);
 }
 
 CitedAuthor cited_author(const std::string& name) {

@@ -17,7 +17,7 @@ constexpr std::array kChangedOptions = {
     OptionEntry{"id", ValueKind::kText, about("name of the check: letters, digits and _")},
     OptionEntry{"points", ValueKind::kNumber, about("points of the check"), {.initial = "1"}},
     OptionEntry{"about", ValueKind::kText, about("name of the check shown to students. Default: the id")},
-    OptionEntry{"hint", ValueKind::kText, about("text shown when points are missing")}};
+    OptionEntry{"hint", ValueKind::kText, about("text shown to students who do not get all points of the check")}};
 constexpr std::array kOwnOptions = {
     OptionEntry{"test", ValueKind::kAny, about("function(a, b) that checks the answers")},
     OptionEntry{"rerun", ValueKind::kText, about("data set or \"seed\" for a rerun of the script")},
@@ -73,7 +73,8 @@ int check(Call& call) {
     check.rubric = options.text("rubric", "");
     check.visible = session.visible_file;
     if (check.by_hand && (options.has("test") || options.has("rerun") || options.has("mistakes")))
-        throw InvalidArgument("\"{}\" is marked manually and cannot have test, rerun or mistakes", check.id);
+        throw InvalidArgument("\"{}\" is marked manually and cannot have the fields 'test', 'rerun' or 'mistakes'",
+                              check.id);
     if (!check.by_hand && options.has("rubric"))
         throw InvalidArgument("the check \"{}\" has a rubric and therefore needs by_hand = true", check.id);
     const Message owner = Message("the check \"{}\"", check.id);

@@ -88,7 +88,7 @@ bool on_secret_record(const Call& call) {
 
 constexpr std::array kNearOptions = {
     OptionEntry{"rel", ValueKind::kNumber, about("largest relative error of a correct answer"), {.initial = "0.05"}},
-    OptionEntry{"abs", ValueKind::kNumber, about("largest absolute error of a correct answer, instead of rel")},
+    OptionEntry{"abs", ValueKind::kNumber, about("largest absolute error of a correct answer, instead of 'rel'")},
     OptionEntry{"half", ValueKind::kNumber, about("largest error that earns half the points")}};
 constexpr OptionTable kNear[] = {kNearOptions};
 
@@ -146,7 +146,7 @@ CheckOutcome check_outcome_at(const Call& call, int index) {
         case LUA_TNUMBER: {
             const double share = lua_tonumber(L, index);
             if (share < 0 || share > 1)
-                throw InvalidArgument("a test returned {}; expected a share from 0 to 1", significant(share, 4));
+                throw InvalidArgument("a test returned {}; expected a number from 0 to 1", significant(share, 4));
             verdict.share = std::isfinite(share) ? share : 0;
             break;
         }
@@ -159,7 +159,8 @@ CheckOutcome check_outcome_at(const Call& call, int index) {
             break;
         default:
             throw InvalidArgument(
-                "a test must return true, false, a share from 0 to 1, or the result of near or a similar function");
+                "a test must return true, false, a number from 0 to 1, or the result of near(...) or a similar "
+                "function");
     }
     return verdict;
 }
@@ -344,7 +345,7 @@ std::optional<Message> mistake_made(const Call& call, const DeclaredCheck& check
         lua_getfield(L, -1, "say");
         lua_getfield(L, -2, "when");
         if (lua_type(L, -1) != LUA_TFUNCTION || lua_type(L, -2) != LUA_TSTRING)
-            throw InvalidArgument("entry {} of mistakes must be {when = function, say = text}", i);
+            throw InvalidArgument("entry {} of 'mistakes' must be {when = function, say = text}", i);
         lua_pushvalue(L, answers);
         lua_pushvalue(L, answers + 1);
         // A mistake that cannot be looked for was not made.

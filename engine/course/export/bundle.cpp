@@ -64,7 +64,8 @@ void take_seeds(const std::vector<Student>& students, std::map<std::string, std:
         if (!student.seed) continue;
         const auto [known, added] = seeds.try_emplace(bundle_owner(student), *student.seed);
         if (!added && known->second != *student.seed)
-            throw EnvironmentError("the members of {} have different seeds", bundle_owner(student));
+            throw EnvironmentError("the members of {} have different seeds; give them the same seed in the roster",
+                                   bundle_owner(student));
     }
 }
 

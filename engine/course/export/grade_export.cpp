@@ -188,9 +188,9 @@ class Outbox {
         else if (const std::int64_t contradicted = settle_numbers(students_); contradicted > 0)
             result_.notes.push_back(plural(
                 contradicted,
-                "{} participant number in the roster's column moodle differs from the number in the submission's name. "
-                "dynlab uses the latter, because Moodle numbers participants for each assignment",
-                "{} participant numbers in the roster's column moodle differ from the numbers in the submissions' "
+                "{} participant number in the roster's column \"moodle\" differs from the number in the submission's "
+                "name. dynlab uses the latter, because Moodle numbers participants for each assignment",
+                "{} participant numbers in the roster's column \"moodle\" differ from the numbers in the submissions' "
                 "names. dynlab uses the latter, because Moodle numbers participants for each assignment"));
         look_for_news();
     }
@@ -273,15 +273,16 @@ class Outbox {
         } else if (!moodle_table()) {
             result_.unwritten.push_back(
                 Message("moodle-grades.csv and moodle-feedback.zip were not written: no student with marks has a "
-                        "Moodle number, neither in the name of a submission nor in the roster's column moodle; give "
-                        "--worksheet FILE"));
+                        "Moodle number, neither in the name of a submission nor in the roster's column \"moodle\"; "
+                        "give --worksheet FILE"));
             return;
         }
         const fs::path zip = folder_ / "moodle-feedback.zip";
         if (feedback.empty()) {
             fs::remove(zip);
-            result_.notes.push_back(Message(
-                "moodle-feedback.zip was not written: all feedback was delivered; to write the file again, use --all"));
+            result_.notes.push_back(
+                Message("moodle-feedback.zip was not written, because all feedback was already delivered. To write the "
+                        "file again, use --all"));
         } else {
             feedback.write(zip);
             result_.files.push_back(zip);
@@ -302,8 +303,8 @@ class Outbox {
         for (const MarkedStudent& student : students_)
             if (student.moodle.empty() && has_marks(student))
                 result_.complaints.push_back(
-                    Message("{} is missing in moodle-grades.csv: the participant's number is unknown; give Moodle's "
-                            "grading worksheet with --worksheet",
+                    Message("{} is missing from moodle-grades.csv, because the participant's number is unknown. Give "
+                            "Moodle's grading worksheet with --worksheet",
                             student.shown()));
         return true;
     }
@@ -322,7 +323,7 @@ class Outbox {
         if (table.rows.empty()) {
             result_.unwritten.push_back(
                 Message("canvas-grades.csv was not written: no student with marks has a Canvas number, neither in the "
-                        "name of a submission nor in the roster's column canvas"));
+                        "name of a submission nor in the roster's column \"canvas\""));
             return;
         }
         table.rows.insert(table.rows.begin(), {"    Points Possible", "", "", "", "", possible});

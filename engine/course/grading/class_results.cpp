@@ -112,11 +112,12 @@ std::vector<Message> several_of_one(const ClassResults& results) {
             names.push_back(fmt::format("\"{}\"", shown_name(entry->item->submission)));
         }
         const std::string counting_name = shown_name(counts->item->submission);
-        sentences.push_back(results.work->newest_counts
-                                ? Message("{} has several submissions; the newest submission counts, \"{}\": {}", owner,
-                                          counting_name, listed(names))
-                                : Message("{} has several submissions; the best submission counts, \"{}\": {}", owner,
-                                          counting_name, listed(names)));
+        sentences.push_back(
+            results.work->newest_counts
+                ? Message("{} has several submissions. The newest submission, \"{}\", counts. All submissions: {}",
+                          owner, counting_name, listed(names))
+                : Message("{} has several submissions. The best submission, \"{}\", counts. All submissions: {}", owner,
+                          counting_name, listed(names)));
     }
     return sentences;
 }
@@ -282,7 +283,7 @@ Attention what_needs_attention(const ClassResults& results) {
     for (const Entry& entry : results.entries) {
         const std::string name = shown_name(entry.item->submission);
         if (results.work->roster && !entry.item->unmatched.empty()) {
-            add(Message("\"{}\" matches no student in the roster: {}; add the submission to the CSV file for --owners",
+            add(Message("\"{}\" matches no student in the roster: {}. Add the submission to the CSV file for --owners",
                         name, entry.item->unmatched));
             ++attention.unowned;
         }
@@ -309,7 +310,7 @@ Attention what_needs_attention(const ClassResults& results) {
         if (entry.item->version == 0) continue;
         by_content[entry.item->content].push_back(&entry);
     }
-    if (!by_hand.empty()) add(Message("manual marks are missing in marks.csv: {}", listed(by_hand, Join::kAnd)));
+    if (!by_hand.empty()) add(Message("manual marks are missing from marks.csv: {}", listed(by_hand, Join::kAnd)));
     for (const auto& [content, entries] : by_content) {
         const auto of_others = [&of_content = entries](const Entry* entry) {
             return entry->item->students != of_content.front()->item->students;

@@ -196,7 +196,7 @@ class FolderCheck {
         add("analysis-fails", Severity::kRule, "",
             Message("The report cannot be built from a clean copy of the folder: {}", message),
             Message("Fix the error and run \"dynlab report FOLDER\". Every file that the analysis reads must be in the "
-                    "folder or in data."));
+                    "folder or in its subfolder \"data\"."));
     }
 
     /// The script stopped.

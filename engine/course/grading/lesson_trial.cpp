@@ -125,7 +125,7 @@ void look_at_starter(const Lesson& lesson, const EvaluatedScript& starter, Fault
     for (const EvaluatedCheck& one : starter.checks)
         if (!one.check.by_hand && one.share.value_or(0) > 0)
             faults.add(lesson.script(), 0,
-                       Message("the untouched starter gets points for the check \"{}\"", one.check.id));
+                       Message("the unchanged starter script gets points for the check \"{}\"", one.check.id));
 }
 
 /// Of wrong_*.lua and right_*.lua, which has nothing to expect.
@@ -212,7 +212,9 @@ void look_at_translated_checks(const Lesson& lesson, const std::string& language
     if (!fs::exists(checks)) return;
     if (!fs::exists(words)) {
         if (fs::exists(lesson.tasks(language)))
-            faults.add(words, 0, Message("the file is missing: the feedback gives checks and hints in English"));
+            faults.add(
+                words, 0,
+                Message("the file is missing, so the feedback shows the names of the checks and the hints in English"));
         return;
     }
     faults.attempt(words, [&] {

@@ -24,10 +24,12 @@ Message complaint_about(const CheckDescription& check, const std::map<std::strin
         const Message error_reason = shortened_error(*run->second.error);
         if (name == kMainRun)
             return Message(
-                "the check \"{}\" is left ungraded, because the run of the reference solution stopped: {}; {}",
+                "the check \"{}\" is left ungraded, because the run of the reference solution stopped: {}. The check "
+                "reports: {}",
                 check.id, error_reason, said);
         return Message(
-            "the check \"{}\" is left ungraded, because the run of the reference solution on {} stopped: {}; {}",
+            "the check \"{}\" is left ungraded, because the run of the reference solution on {} stopped: {}. The check "
+            "reports: {}",
             check.id, name, error_reason, said);
     }
     return Message("the check \"{}\" is left ungraded, because the reference solution does not pass it: {}", check.id,

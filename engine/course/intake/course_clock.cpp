@@ -36,8 +36,8 @@ CourseClock::CourseClock(const std::string& zone) : zone_(zone) {
     std::error_code ignored;
     if (odd || (zone != "UTC" && !fs::is_regular_file(fs::path("/usr/share/zoneinfo") / zone, ignored)))
         throw InvalidArgument(
-            "unknown time zone \"{}\"; give a name such as Europe/Paris or UTC (list: timedatectl list-timezones; "
-            "package tzdata)",
+            "unknown time zone \"{}\"; give a name such as Europe/Paris or UTC. For a list of names, install the "
+            "package tzdata and run: timedatectl list-timezones",
             zone);
     ::setenv("TZ", zone.c_str(), 1);
     ::tzset();

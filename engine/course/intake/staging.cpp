@@ -163,7 +163,8 @@ class Stager {
                 "Several folders contain an analysis.lua, and dynlab cannot determine the newest file: {}. Submit only "
                 "one of these folders.",
                 listed_places(found));
-        return staged(*newest, Message("of {}, dynlab used \"{}\" as the newest", listed_places(found), newest->shown));
+        return staged(*newest,
+                      Message("of {}, dynlab used \"{}\", the newest file", listed_places(found), newest->shown));
     }
 
   private:

@@ -246,7 +246,8 @@ std::vector<Submission> submissions_in(const fs::path& folder, std::vector<Messa
     for (const fs::path& entry : entries) reader.take(entry);
     std::vector<Submission> all = reader.all();
     if (all.empty())
-        throw EnvironmentError("'{}' contains no submissions: folders or archives (.zip, .tar.gz)", folder.string());
+        throw EnvironmentError("'{}' contains no submissions; a submission is a folder or an archive (.zip, .tar.gz)",
+                               folder.string());
     return all;
 }
 

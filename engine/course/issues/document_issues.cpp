@@ -85,13 +85,13 @@ Message page_summary(const DocumentText& text, int pages, const DocumentRules& r
     if (!rules.pages) return slides ? plural(pages, "{} slide", "{} slides") : plural(pages, "{} page", "{} pages");
     const int most = *rules.pages;
     if (!rules.appendix_pages)
-        return slides ? plural(pages, "{} slide of at most {}", "{} slides of at most {}", most)
-                      : plural(pages, "{} page of at most {}", "{} pages of at most {}", most);
+        return slides ? plural(pages, "{} slide (limit: {})", "{} slides (limit: {})", most)
+                      : plural(pages, "{} page (limit: {})", "{} pages (limit: {})", most);
     const int more = *rules.appendix_pages;
-    return slides ? plural(pages, "{} slide of at most {} + {} in the appendix",
-                           "{} slides of at most {} + {} in the appendix", most, more)
-                  : plural(pages, "{} page of at most {} + {} in the appendix",
-                           "{} pages of at most {} + {} in the appendix", most, more);
+    return slides ? plural(pages, "{} slide (limit: {}, plus {} in the appendix)",
+                           "{} slides (limit: {}, plus {} in the appendix)", most, more)
+                  : plural(pages, "{} page (limit: {}, plus {} in the appendix)",
+                           "{} pages (limit: {}, plus {} in the appendix)", most, more);
 }
 
 /// Checks what can be read; `result` knows the file already.

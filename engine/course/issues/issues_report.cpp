@@ -128,11 +128,11 @@ std::string issues_as_text(const CheckResult& result, bool in_color, const Reade
         writer.words(result.checked.empty() ? Message::verbatim(writer.styled(kBold, subject))
                                             : Message("{}: {}", writer.styled(kBold, subject), checked)) +
         "\n";
-    text += writer.group(result, Counted::kAnswers, kRed, Message("Open answers"));
+    text += writer.group(result, Counted::kAnswers, kRed, Message("Missing answers"));
     text += writer.group(result, Counted::kRules, kRed, Message("Rules violated"));
     text += writer.group(result, Counted::kHints, kYellow, Message("Hints"));
     text += writer.group(result, Counted::kChecks, kYellow, Message("Checks of the lesson"));
-    if (rules == 0) text += "\n" + writer.styled(kGreen, writer.words(Message("No rule is violated."))) + "\n";
+    if (rules == 0) text += "\n" + writer.styled(kGreen, writer.words(Message("No rules are violated."))) + "\n";
     return text;
 }
 

@@ -46,16 +46,16 @@ Message too_small(double size, bool slides, const std::vector<int>& pages) {
     const Number found = decimals(size, 1);
     const MessageList where = list_of(pages);
     if (pages.size() == 1)
-        return slides
-                   ? Message(
-                         "The text is too small: {} pt, measured on a slide 96 mm high; at least {} pt are required.",
-                         found, kMinTextSize)
-                   : Message("The text is too small: {} pt; at least {} pt are required.", found, kMinTextSize);
+        return slides ? Message(
+                            "The text size, measured on a slide 96 mm high, is only {} pt, but at least {} pt are "
+                            "required.",
+                            found, kMinTextSize)
+                      : Message("The text size is only {} pt, but at least {} pt are required.", found, kMinTextSize);
     return slides ? Message(
-                        "The text is too small: {} pt, measured on a slide 96 mm high (pages {}); at least {} pt are "
-                        "required.",
+                        "The text size, measured on a slide 96 mm high, is only {} pt (pages {}), but at least {} pt "
+                        "are required.",
                         found, where, kMinTextSize)
-                  : Message("The text is too small: {} pt (pages {}); at least {} pt are required.", found, where,
+                  : Message("The text size is only {} pt (pages {}), but at least {} pt are required.", found, where,
                             kMinTextSize);
 }
 
@@ -69,8 +69,9 @@ void check_size(const DocumentText& text, int pages, Issues& findings) {
         smallest = std::min(smallest, size);
     }
     if (small.empty()) return;
-    findings.push_back({"text-small", Severity::kRule, small.front(), "", too_small(smallest, text.is_slides(), small),
-                        Message("Use a text size of 11 pt, as in the template, and shorten the text instead.")});
+    findings.push_back(
+        {"text-small", Severity::kRule, small.front(), "", too_small(smallest, text.is_slides(), small),
+         Message("Use a text size of 11 pt, as in the template. If the document becomes too long, shorten the text.")});
 }
 
 struct Strays {
@@ -107,13 +108,14 @@ void check_margins(const DocumentText& text, const PdfLayout& layout, Issues& fi
         }
     }
     if (!narrow.empty()) {
-        findings.push_back({"margins", Severity::kRule, narrow.front(), "",
-                            narrow.size() > 1 ? Message("The margins are too narrow (pages {}): the text is closer "
-                                                        "than 15 mm to the sides or 12 mm to the top or bottom.",
-                                                        list_of(narrow))
-                                              : Message("The margins are too narrow: the text is closer than 15 mm to "
-                                                        "the sides or 12 mm to the top or bottom."),
-                            Message("Use the template's margins of 25 mm and shorten the text instead.")});
+        findings.push_back(
+            {"margins", Severity::kRule, narrow.front(), "",
+             narrow.size() > 1 ? Message("The margins are too narrow (pages {}): the text is closer "
+                                         "than 15 mm to the sides or 12 mm to the top or bottom.",
+                                         list_of(narrow))
+                               : Message("The margins are too narrow: the text is closer than 15 mm to "
+                                         "the sides or 12 mm to the top or bottom."),
+             Message("Use the template's margins of 25 mm. If the document becomes too long, shorten the text.")});
     }
     findings.insert(findings.end(), overflows.begin(), overflows.end());
 }

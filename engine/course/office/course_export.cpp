@@ -143,7 +143,7 @@ StoredCell stored_cell(const SQLite::Column& cell) {
 const std::string& text_in(const StoredRow& row, const std::string& column) {
     const auto found = row.find(column);
     const auto* const text = found == row.end() ? nullptr : std::get_if<std::string>(&found->second.value);
-    if (!text) throw ValueError("a row has no value \"{}\"", column);
+    if (!text) throw ValueError("a row has no value for \"{}\"", column);
     return *text;
 }
 

@@ -127,14 +127,18 @@ fs::path results_folder(const Course& course, const Assignment& assignment) {
 
 std::string secret_in(const std::string& file) {
     std::string secret = read_file(file);
-    if (secret.empty()) throw EnvironmentError("{} is empty: hidden data sets drawn from it would not be secret", file);
+    if (secret.empty())
+        throw EnvironmentError(
+            "{} is empty, so the hidden data sets would not be secret. Write a secret text to this file", file);
     return secret;
 }
 
 GradingOptions grading_options(const Assignment& assignment, const CourseGradingRequest& request, const fs::path& out) {
     if (!assignment.is_lab())
-        throw InvalidArgument("{} is not a lab: only labs are graded by checks; see dynlab course scores",
-                              assignment.name);
+        throw InvalidArgument(
+            "{} is not a lab, and checks grade only labs. For the scores of reviews and talks, use dynlab course "
+            "scores",
+            assignment.name);
     GradingOptions options;
     options.setup = request.setup;
     options.setup.lesson = find_lesson(assignment.lesson);

@@ -73,8 +73,8 @@ class RowsOfGroups {
         if (row.grace != assignment_.grace || row.percent_per_day != assignment_.costs.late_day ||
             row.most_percent != assignment_.costs.late_most)
             throw InvalidArgument(
-                "a course has one grace period and one penalty for all students; use the column \"extra\", or another "
-                "deadline");
+                "in a course, the grace period and the penalty are the same for all students. To give a student more "
+                "time, use the column \"extra\" or another deadline");
         const auto [known, fresh] = rows_.try_emplace(group, row);
         if (!fresh && known->second.deadline < row.deadline) known->second = row;
     }

@@ -163,11 +163,11 @@ class SubmissionReceiver {
         if (has_any(candidate, candidate.part, sha256_of_file(candidate.file->file))) return;
         throw released ? EnvironmentError(
                              "the reviews of {} are already released: did you mean dynlab course submit --stage final? "
-                             "--first submits a first version anyway",
+                             "To submit a first version anyway, give --first",
                              candidate.group.name)
                        : EnvironmentError(
-                             "the reviews of {} are already due: did you mean dynlab course submit --stage final? "
-                             "--first submits a first version anyway",
+                             "the reviews of {} are already due: did you mean dynlab course submit --stage final? To "
+                             "submit a first version anyway, give --first",
                              candidate.group.name);
     }
 
@@ -216,7 +216,7 @@ class SubmissionReceiver {
         for (Candidate& c : candidates_) {
             if (c.hash.empty() || contents[slot_of(c, c.part)].size() == 1) continue;
             outcome_.refused.push_back(
-                Message("{}: {} submitted several files that could be the {}; submit the correct one alone",
+                Message("{}: {} submitted several files that could be the {}; submit only the correct file",
                         c.file->source, c.group.name, c.part));
             make_trace(c, "several", Message("The file is one of several files that could be the {}.", c.part));
             c.silent = false;

@@ -81,11 +81,11 @@ class Allocator {
             throw order_.size() == 1
                 ? InvalidArgument(
                       "each group should write {} reviews, but only {} has a report, so {} can be reviewed: wait for "
-                      "more first versions, or change the assignment to fewer --reviews",
+                      "more first versions, or decrease --reviews of the assignment",
                       problem_.reviews, order_.size(), std::max(0, others))
                 : InvalidArgument(
                       "each group should write {} reviews, but only {} have a report, so {} can be reviewed: wait for "
-                      "more first versions, or change the assignment to fewer --reviews",
+                      "more first versions, or decrease --reviews of the assignment",
                       problem_.reviews, order_.size(), std::max(0, others));
     }
 
@@ -266,13 +266,14 @@ class Allocator {
         }
         if (few_written + few_got > 0)
             say(
-                Message("{} groups write and {} reports receive fewer than {} reviews: common members and existing "
-                        "reviews allow no other allocation.",
+                Message("Groups that write too few reviews: {}. Reports that receive too few reviews: {}. The "
+                        "requested number is {}, but common members and existing reviews allow no other allocation.",
                         few_written, few_got, requested_));
         if (more > 0)
-            say(Message(
-                "{} groups write or receive one review more than {}: existing reviews and sent copies are kept.", more,
-                requested_));
+            say(
+                Message("Groups that write or receive one extra review: {}. The requested number is {}, but existing "
+                        "reviews and sent copies are kept.",
+                        more, requested_));
         if (allocation.swapped > 0)
             say(plural(allocation.swapped,
                        "{} pair of groups review each other; no exchange of two reviews avoids this.",

@@ -29,7 +29,7 @@ class CostTaker {
         if (points <= 0 || (!from && (!work || a_.is_report()))) return;
         if (from) from = std::max(0.0, *from - points);
         if (work) mark.work_costs += points;
-        mark.costs.push_back(Message("{} deducted for {}", significant(points, 6), why));
+        mark.costs.push_back(Message("{} % deducted for {}", significant(points, 6), why));
     }
 
     void take_off_work(GroupMark& mark) {
@@ -43,7 +43,7 @@ class CostTaker {
                                     ? Message("a first version late by {}", duration_message(found->second.late))
                                     : Message("a final version late by {}", duration_message(found->second.late));
             if (waits_for_confirmation(a_.costs, found->second.late, found->second.confirmed))
-                mark.costs.push_back(Message("{} for {} are not applied until you confirm the time of receipt",
+                mark.costs.push_back(Message("{} % for {} is not deducted until you confirm the time of receipt",
                                              significant(percent, 6), why));
             else
                 take(mark, mark.work, percent, why);

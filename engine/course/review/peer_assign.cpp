@@ -57,8 +57,8 @@ class ReviewAssigner {
             known_[edge] = pair;
             if (pair.written && refused_.contains(edge))
                 outcome_.remarks.push_back(
-                    Message("{} has reviewed {}, but the groups share or shared a member, or are kept apart; withdraw "
-                            "the review if it must not count.",
+                    Message("{} has reviewed {}, but the groups share or shared a member, or review pairs --forbid "
+                            "excludes this pair; withdraw the review if it must not count.",
                             pair.reviewer_name, pair.author_name));
             if (!pair.written && refused_.contains(edge)) continue;
             (pair.written || (pair.sent && both) ? problem_.fixed : problem_.loose).push_back(edge);

@@ -85,7 +85,8 @@ ReviewPair reviewed_pair(const std::vector<ReviewPair>& pairs, const Group& revi
         (pair.ended ? taken_back : given).push_back(&pair);
     }
     if (given.empty() && taken_back.empty())
-        throw EnvironmentError("{} received no report to review; see dynlab course review assign", reviewer.name);
+        throw EnvironmentError(
+            "{} received no report to review. To assign the reviews, run dynlab course review assign", reviewer.name);
     const std::vector<std::int64_t> named = report_numbers(name);
     for (const auto* list : {&given, &taken_back})
         for (const ReviewPair* pair : *list)

@@ -24,8 +24,8 @@ constexpr char kInstructor[] = "instructor", kComment[] = "comment";
 void refuse_other_than_talk(const Assignment& a) {
     if (a.is_report()) throw InvalidArgument("{} is a report: its marks are based on reviews, not on a talk", a.name);
     if (a.is_lab())
-        throw InvalidArgument("{} is a lab: its checks determine the points; use dynlab course mark to change them",
-                              a.name);
+        throw InvalidArgument(
+            "{} is a lab, so its checks determine the points. To change the points, use dynlab course mark", a.name);
 }
 
 /// Throws InvalidArgument for a group that cannot have scores for its report of this stage.

@@ -33,7 +33,7 @@ void keep_what_fits(GradedRun& run) {
         }
         if (!run.error)
             run.error = Message(
-                "the answer \"{}\" is too large: all answers together can have at most {} MB; submit fewer numbers",
+                "the answer \"{}\" is too large. All answers together can have at most {} MB, so submit fewer numbers",
                 answer->first, kMostGiven >> 20);
         answer = run.answers.erase(answer);
     }

@@ -155,8 +155,8 @@ bool set_assignment(Course& course, Assignment requested, const std::string& rea
         refuse_change_of_form(course, known, requested, has_work);
         if (has_work && reason.empty() && !only_later(known, requested, course.clock()))
             throw InvalidArgument(
-                "files were already submitted for {}: you can only postpone deadlines and increase the grace period; "
-                "give --reason to change more",
+                "files were already submitted for {}, so you can only postpone deadlines and increase the grace "
+                "period. To make other changes, give --reason",
                 known.name);
         requested.name = known.name;
         note = fmt::format("assignment {} changed: {}", known.name, fmt::join(changes, ", "));
@@ -230,11 +230,11 @@ Assignment assignment_named(Course& course, const std::string& name) {
     const auto near = nearest_word(name, names);
     const MessageList known = listed(names);
     if (names.size() == 1)
-        throw near ? InvalidArgument("unknown assignment \"{}\"; the only assignment is {}; did you mean {}?", name,
+        throw near ? InvalidArgument("unknown assignment \"{}\". The only assignment is {}. Did you mean {}?", name,
                                      known, *near)
                    : InvalidArgument("unknown assignment \"{}\"; the only assignment is {}", name, known);
     throw near
-        ? InvalidArgument("unknown assignment \"{}\"; the assignments are {}; did you mean {}?", name, known, *near)
+        ? InvalidArgument("unknown assignment \"{}\". The assignments are {}. Did you mean {}?", name, known, *near)
         : InvalidArgument("unknown assignment \"{}\"; the assignments are {}", name, known);
 }
 
@@ -298,7 +298,7 @@ bool waits_for_confirmation(const Costs& costs, std::int64_t late, bool confirme
 }
 
 void refuse_without_reason(const std::string& reason) {
-    if (reason.empty()) throw InvalidArgument("give the reason for the history: --reason \"...\"");
+    if (reason.empty()) throw InvalidArgument("give a reason, which the history shows: --reason \"...\"");
 }
 
 Instant due_for(Course& course, const Assignment& a, std::int64_t group, const std::string& stage) {

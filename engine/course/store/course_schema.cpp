@@ -305,7 +305,7 @@ bool migrate_course(Database& database, Database::Opening opening, const std::st
         database.execute(steps[static_cast<std::size_t>(version)]);
     database.execute(kViews);
     if (database.query("PRAGMA foreign_key_check").next())
-        throw EnvironmentError("{}: a row refers to a missing row; nothing was changed; restore a backup", file);
+        throw EnvironmentError("{}: a row refers to a missing row. Nothing was changed. Restore a backup", file);
     database.execute(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", kApplicationId, newest));
     transaction.commit();
     database.execute("PRAGMA foreign_keys = ON");

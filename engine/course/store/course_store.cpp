@@ -41,7 +41,7 @@ void make_key(const fs::path& file) {
 void sync_folder(const fs::path& folder) {
     const FileDescriptor fd(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (!fd || ::fsync(fd.get()) != 0)
-        throw EnvironmentError("cannot write into {}: {}", folder.string(), system_reason(errno));
+        throw EnvironmentError("cannot write to {}: {}", folder.string(), system_reason(errno));
 }
 
 /// A new one is its owner's alone: names, addresses and who reviews whom are below.

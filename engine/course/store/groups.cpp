@@ -49,11 +49,11 @@ bool is_reserved(const std::string& name) {
 void refuse_odd_group(const std::string& name) {
     constexpr std::size_t kMaxNameBytes = 100;
     if (name.size() > kMaxNameBytes)
-        throw EnvironmentError("the group's name \"{}...\" is too long: at most {} bytes, but it has {}",
+        throw EnvironmentError("the group's name \"{}...\" must have at most {} bytes, but it has {}",
                                terminal_text(name.substr(0, 40)), kMaxNameBytes, name.size());
     if (is_reserved(name))
         throw EnvironmentError(
-            "a group cannot have the name \"{}\", because a device or a list has this name. Correct the roster; "
+            "a group cannot have the name \"{}\", because Windows or dynlab reserves this name. Correct the roster; "
             "nothing was changed",
             name);
     const bool plain = name.find_first_of("/\\\n\r\t") == name.npos && terminal_text(name) == name;
@@ -208,9 +208,9 @@ Group group_named(Course& course, const std::string& name) {
     if (found.doubtful) throw InvalidArgument("\"{}\" matches several groups: {}", name, found.error_reason);
     const auto near = nearest_word(name, owners.names());
     if (near) throw InvalidArgument("the group \"{}\" does not exist; did you mean {}?", name, *near);
-    throw names.empty()
-        ? InvalidArgument("the group \"{}\" does not exist: no group has submitted anything yet", name)
-        : InvalidArgument("the group \"{}\" does not exist; the first group is \"{}\"", name, names.front());
+    throw names.empty() ? InvalidArgument("the group \"{}\" does not exist: no group has submitted anything yet", name)
+                        : InvalidArgument("the group \"{}\" does not exist; an example of an existing group is \"{}\"",
+                                          name, names.front());
 }
 
 Student student_named(Course& course, const std::string& name) {

@@ -192,7 +192,7 @@ std::optional<double> most_points(Course& course, const Assignment& assignment, 
     if (!assignment.is_lab()) {
         if (item == kReviewsItem) refuse_without_reviews(assignment);
         if (item == kReviewsItem || item == kWholeItem) return 100;
-        throw InvalidArgument("{} has marks for work and reviews only, but \"{}\" was given", assignment.name, item);
+        throw InvalidArgument("{} has the marks \"work\" and \"reviews\", but \"{}\" was given", assignment.name, item);
     }
     const std::vector<CheckPoints> checks = newest_checks(course, assignment);
     if (checks.empty()) return {};

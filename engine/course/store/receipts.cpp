@@ -142,7 +142,7 @@ Receipt receipt_of(Course& course, std::int64_t version, std::optional<std::int6
         "FROM versions v JOIN assignments a ON a.id = v.assignment LEFT JOIN groups g ON g.id = v.group_id "
         "JOIN files f ON f.hash = v.hash WHERE v.id = ?",
         version);
-    if (!rows.next()) throw EnvironmentError("this course has no version {}", version);
+    if (!rows.next()) throw EnvironmentError("this course has no submitted version with the number {}", version);
     Receipt receipt{course.name(),   rows.text(0),    rows.text(1),    rows.text(2),
                     rows.text(3),    rows.text(4),    rows.text(5),    rows.integer(6),
                     rows.integer(7), rows.integer(8), rows.integer(9), rows.integer(10)};

@@ -67,7 +67,7 @@ Message Senders::complaint(const Submission& submission) const {
     const std::string& own = submission.person.empty() ? submission.name : submission.person;
     const Owners::Found found = owner_of(submission);
     if (found.doubtful)
-        return Message("the owner of \"{}\" is unknown: {}; give the owner with --from GROUP", own, found.error_reason);
+        return Message("the owner of \"{}\" is unknown: {}. Give the owner with --from GROUP", own, found.error_reason);
     const auto near = nearest_word(own, owners_.names());
     if (!near)
         return Message("no group or student of the course is named \"{}\"; give the owner with --from GROUP", own);

@@ -218,8 +218,8 @@ void refuse_cell(const CellPlace& place, std::string_view cell, const ColumnForm
             "write NaN",
             file, place.line, place.column, given);
     if (status == NumberStatus::kOutOfRange)
-        throw EnvironmentError("{}, line {}, column {}: expected a number within double precision, got {}", file,
-                               place.line, place.column, given);
+        throw EnvironmentError("{}, line {}, column {}: expected a number within the range of double precision, got {}",
+                               file, place.line, place.column, given);
     if (grouped_number(cell))
         throw EnvironmentError(
             "{}, line {}, column {}: expected a number, got {}; write it without thousands separators", file,

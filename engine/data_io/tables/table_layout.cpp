@@ -241,8 +241,8 @@ class LayoutFinder {
     [[noreturn]] void fail_mismatch() const {
         const TableRecord& above = records_[first_row_ - 1];
         throw EnvironmentError(
-            "{}, line {}: {}, but the rows below have {}; if that line is not part of the table, use load(file, {skip "
-            "= {}})",
+            "{}, line {}: the line has {}, but the rows below it have {}; if the line is not part of the table, use "
+            "load(file, {skip = {}})",
             file_.string(), above.line, plural(std::ssize(above.cells), "{} name", "{} names"),
             plural(static_cast<std::int64_t>(columns_), "{} cell", "{} cells"), above.line);
     }

@@ -76,7 +76,7 @@ class RowReader {
         if ((memory_ += bytes) <= memory_for_reading(text_.size())) return;
         const ReadingMegabytes megabytes = megabytes_for_reading(text_.size());
         throw EnvironmentError(
-            "{}, line {}: the table has too many cells: reading it requires more than {} MB of memory, too much for a "
+            "{}, line {}: the table has too many cells: reading it requires more than {} MB of memory, the limit for a "
             "file of {} MB",
             file_.string(), scanner.line(), megabytes.most, megabytes.of_file);
     }

@@ -256,7 +256,7 @@ NumberArray CborReader::take_array(std::optional<ArrayForm> requested) {
     if (array.form == ArrayForm::kVector) array.rows = count;
     const bool fits = array.columns == 0 ? count == 0 : array.rows <= count / array.columns;
     if (!fits || array.bytes() != numbers.size())
-        refuse(Message("{} x {} numbers do not fit {} bytes", array.rows, array.columns, numbers.size()));
+        refuse(Message("{} x {} numbers do not match a length of {} bytes", array.rows, array.columns, numbers.size()));
     if (requested && *requested != array.form) refuse_kind(array_name(requested), array_name(array.form));
     array.numbers = numbers.data();
     return array;

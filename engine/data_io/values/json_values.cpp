@@ -170,7 +170,7 @@ JsonReader JsonReader::of_text(std::string_view text, const ValueLimits& limits)
 }
 
 void JsonReader::refuse_json(const Message& requested) const {
-    refuse_kind(requested, Message("JSON of the type {}", at_->type_name()));
+    refuse_kind(requested, Message("a JSON value of type {}", at_->type_name()));
 }
 
 ValueReader::Kind JsonReader::next() {
@@ -219,7 +219,8 @@ void JsonReader::read_numbers(const json& list, bool complex) {
     const auto add = [this](const json& value) {
         const auto number = number_in(value);
         if (!number)
-            refuse_kind(Message("a list of numbers"), Message("a list with JSON of the type {}", value.type_name()));
+            refuse_kind(Message("a list of numbers"),
+                        Message("a list with a JSON value of type {}", value.type_name()));
         numbers_.push_back(*number);
     };
     if (!list.is_array()) refuse_json(Message("a list of numbers"));

@@ -202,7 +202,7 @@ class Pruning {
 void refuse_full_disk(const fs::path& folder, std::uintmax_t bytes) {
     std::error_code unknown;
     if (const fs::space_info disk = fs::space(folder, unknown); !unknown && disk.available < bytes)
-        throw EnvironmentError("no space is left in {}: free some space, or name another folder in TMPDIR",
+        throw EnvironmentError("no space is left in {}: free some space, or set TMPDIR to another folder",
                                folder.string());
 }
 

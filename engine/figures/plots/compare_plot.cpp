@@ -15,8 +15,10 @@ void check_model_output(const ModelOutput& model, const Matrix& measured) {
         model.fit_percent.size() == measured.cols())
         return;
     throw InvalidArgument(
-        "the output of model \"{}\" must be {} x {} with {} fits, like the data, but it is {} x {} with {}", model.name,
-        measured.rows(), measured.cols(), measured.cols(), model.y.rows(), model.y.cols(), model.fit_percent.size());
+        "the output of model \"{}\" must be {} x {} with {} fit values, as for the data, but it is {} x {} with {} fit "
+        "values",
+        model.name, measured.rows(), measured.cols(), measured.cols(), model.y.rows(), model.y.cols(),
+        model.fit_percent.size());
 }
 
 constexpr double kMeasuredWidth = 2.4;  ///< points: seen on both sides of a model's line that lies upon it

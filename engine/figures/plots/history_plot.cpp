@@ -67,7 +67,8 @@ Figure history_plot(const ParameterHistory& history, const std::vector<std::stri
     if (history.t.size() == 0) throw InvalidArgument("no history to draw");
     for (const auto& [name, values] : truth)
         if (std::find(names.begin(), names.end(), name) == names.end())
-            throw InvalidArgument("the true value of '{}' was given, but the parameters are {}", name, listed(names));
+            throw InvalidArgument("'{}' has a true value but is not a parameter; the parameters are {}", name,
+                                  listed(names));
     Figure figure;
     for (Index i = 0; i < history.theta.cols(); ++i) {
         const std::string& name = names[static_cast<std::size_t>(i)];

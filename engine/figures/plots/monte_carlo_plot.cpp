@@ -50,7 +50,7 @@ void check_study(const MonteCarlo& study) {
     for (const MonteCarloResult& result : study.results) {
         if (result.estimated == 0) throw InvalidArgument("nothing to draw: {} gave no estimates", result.label);
         if (result.names != study.results.front().names)
-            throw InvalidArgument("{} and {} have different parameters ({} and {}): draw them in separate studies",
+            throw InvalidArgument("{} and {} have different parameters ({} and {}): use a separate study for each",
                                   study.results.front().label, result.label, listed(study.results.front().names),
                                   listed(result.names));
     }

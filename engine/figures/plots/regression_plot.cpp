@@ -20,8 +20,10 @@ void add_band(Panel& panel, const RegressionPicture& picture, const Vector& lowe
               const Message& label, int color) {
     if (lower.size() == 0 && upper.size() == 0) return;
     if (lower.size() != picture.line_x.size() || upper.size() != picture.line_x.size())
-        throw InvalidArgument("the {} needs one value for each of the {} points of the line, not {} and {}", label,
-                              picture.line_x.size(), lower.size(), upper.size());
+        throw InvalidArgument(
+            "the {} needs one value for each of the {} points of the line, but the lower edge has {} and the upper "
+            "edge has {}",
+            label, picture.line_x.size(), lower.size(), upper.size());
     panel.curves.push_back(curve_of(picture.line_x, lower, label, CurveStyle::kBand, color));
     panel.curves.back().y_upper = upper;
 }

@@ -57,8 +57,9 @@ Index samples_within(double end, double Ts) {
     constexpr double kMax = 1e7;
     const double count = std::floor(end / Ts + 1e-9) + 1;
     if (!(count <= kMax))
-        throw InvalidArgument("a window of {} s has too many samples for one figure of a model with Ts = {} s: {}", end,
-                              Ts, significant(count, 3));
+        throw InvalidArgument(
+            "a window of {} s of a model with Ts = {} s has too many samples for one figure: {}. Use a shorter window",
+            end, Ts, significant(count, 3));
     return static_cast<Index>(count);
 }
 

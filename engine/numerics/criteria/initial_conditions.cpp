@@ -45,12 +45,12 @@ JointOperatingPoint joint_operating_point(const MatrixView& u, const VectorView&
 std::vector<StartCondition> start_conditions(const MatrixView& u, InitialState state, Offset offset) {
     const bool flat = constant(u), zero_first = u.row(0).isZero(0);
     if (flat && state == InitialState::kSteady)
-        throw InvalidArgument("{} \"steady\" needs an input that changes, but this input is constant: use \"none\"",
+        throw InvalidArgument("{} = \"steady\" needs an input that changes, but this input is constant: use \"none\"",
                               OptionName{"initial_state"});
     if (flat && state == InitialState::kEstimate && offset == Offset::kEstimate)
         throw InvalidArgument(
-            "With a constant input, {} \"estimate\" and {} \"estimate\" together leave the gain undetermined: estimate "
-            "only one of them",
+            "With a constant input, {} = \"estimate\" together with {} = \"estimate\" leaves the gain undetermined: "
+            "estimate only the initial state or only the offset",
             OptionName{"initial_state"}, OptionName{"offset"});
     std::vector<StartCondition> conditions;
     const auto add = [&](InitialState candidate, bool with_offset) {

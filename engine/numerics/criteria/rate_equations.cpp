@@ -49,7 +49,9 @@ RateEquations derivative_equations(const IdData& data, std::size_t experiment, c
     const Index N = record.y.rows();
     if (N < window)
         throw InvalidArgument(
-            "sindy: derivatives over {} samples need at least as many samples, but an experiment has {}", window, N);
+            "sindy: each derivative needs {} samples, but an experiment has only {}. Use longer experiments or a "
+            "shorter window",
+            window, N);
     const Vector t = data.time(experiment);
     Matrix X(N, record.y.cols()), rates(N, record.y.cols()), U(N, record.u.cols()), weights;
     Index rows = 0, weights_at = -1;

@@ -14,7 +14,7 @@ Fit arx(const IdData& data, const PolynomialOrders& orders) {
     describe_equation_error(estimate);
     warn_of_operating_point(estimate, data);
     estimate.message = Message(
-        "Least squares with {} equations: fit {} % for one-step prediction, {} % for simulation with measured past "
+        "Least squares with {} equations: fit {} % for one-step prediction, {} % for simulation from measured past "
         "values.",
         ArxEquations(data, orders).count(), significant(estimate.prediction_fit_percent, 4),
         significant(estimate.fit_percent[0], 4));

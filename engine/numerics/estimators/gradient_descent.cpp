@@ -16,10 +16,11 @@ constexpr double kRunaway = 1e12;  // times the first loss
 void check(const MatrixView& Phi, const VectorView& y, const GradientDescentOptions& options) {
     options.validate();
     if (Phi.rows() != y.size() || Phi.cols() == 0 || Phi.rows() == 0)
-        throw InvalidArgument("Phi must have one row per value of y and at least one column, but is {} x {} for {}",
-                              Phi.rows(), Phi.cols(), plural(y.size(), "{} value", "{} values"));
+        throw InvalidArgument(
+            "Phi must have one row per value of y and at least one column, but Phi is {} x {} and y has {}", Phi.rows(),
+            Phi.cols(), plural(y.size(), "{} value", "{} values"));
     if (!Phi.allFinite() || !y.allFinite()) throw InvalidArgument("Phi and y must contain only finite numbers");
-    if (Phi.isZero(0)) throw InvalidArgument("All regressors are zero, so the gradient is zero");
+    if (Phi.isZero(0)) throw InvalidArgument("All regressors are zero, so no parameters can be estimated");
     if (options.start.size() != 0 && options.start.size() != Phi.cols())
         throw InvalidArgument("The starting point must have {}, but has {}",
                               plural(Phi.cols(), "{} value", "{} values"), options.start.size());
@@ -31,14 +32,15 @@ Message ending_of(const GradientDescentResult& result) {
         case Termination::kConverged:
             return Message("Gradient descent converged after {}.", count);
         case Termination::kDiverged:
-            return Message("Gradient descent diverged: the step size {} is too large; it must be below {}.",
-                           result.step_size, result.largest_step);
+            return Message(
+                "Gradient descent diverged, because the step size {} is too large. The step size must be below {}.",
+                result.step_size, result.largest_step);
         case Termination::kCanceled:
             return Message("Gradient descent was stopped after {}; the result is the best point so far.", count);
         default:
             return Message(
-                "Gradient descent did not converge after {}: with a condition number of {} it needs many iterations; "
-                "center and scale the regressors.",
+                "Gradient descent did not converge after {}, because a condition number of {} requires many "
+                "iterations. Center and scale the regressors.",
                 count, significant(result.condition_number, 3));
     }
 }

@@ -216,7 +216,8 @@ void check(const IdData& data, const TransferStructure& structure, const Hammers
             "interpolated input");
     for (const Experiment& experiment : data.experiments)
         if ((experiment.u.array() != experiment.u(0, 0)).any()) return;
-    throw InvalidArgument("hammerstein: the input never changes, so it does not excite the system");
+    throw InvalidArgument(
+        "hammerstein: the input never changes, so it does not excite the system. Use data in which the input varies");
 }
 
 }  // namespace
@@ -229,8 +230,8 @@ void HammersteinOptions::validate() const {
         throw InvalidArgument("{} must have at least two values, but has one", OptionName{"breakpoints"});
     for (Index i = 1; i < breakpoints.size(); ++i)
         if (!(breakpoints[i] > breakpoints[i - 1]))
-            throw InvalidArgument("{} must increase, but value {} is {} after {}", OptionName{"breakpoints"}, i + 1,
-                                  breakpoints[i], breakpoints[i - 1]);
+            throw InvalidArgument("{} must increase, but value {} is {} and the previous value is {}",
+                                  OptionName{"breakpoints"}, i + 1, breakpoints[i], breakpoints[i - 1]);
     if (initial_state == InitialState::kEstimate)
         throw InvalidArgument("{} must be \"none\", \"steady\" or \"auto\" for hammerstein",
                               OptionName{"initial_state"});

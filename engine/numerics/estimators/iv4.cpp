@@ -97,8 +97,10 @@ Fit iv4(const IdData& data, const PolynomialOrders& orders) {
     const IdData whitened_data = filtered(data, L), instruments = filtered(simulated(data, second), L);
     const ArxEquations last(whitened_data, orders);
     if (last.count() <= last.parameters())
-        throw InvalidArgument("iv4: the {} samples of the data are too few for the noise filter of order {}",
-                              data.sample_count(), L.size() - 1);
+        throw InvalidArgument(
+            "iv4: the {} samples of the data are too few for the noise filter of order {}. Use more data or lower "
+            "orders",
+            data.sample_count(), L.size() - 1);
     const InstrumentEstimate solution = solve_instruments(last, ArxEquations(instruments, orders));
 
     Fit estimate = polynomial_fit(orders, solution.theta, data.Ts);
@@ -108,7 +110,7 @@ Fit iv4(const IdData& data, const PolynomialOrders& orders) {
     describe_equation_error(estimate);
     warn_of_operating_point(estimate, data);
     estimate.message = Message(
-        "Instrumental variables with {} equations: fit {} % for one-step prediction, {} % for simulation with measured "
+        "Instrumental variables with {} equations: fit {} % for one-step prediction, {} % for simulation from measured "
         "past values.",
         last.count(), significant(estimate.prediction_fit_percent, 4), significant(estimate.fit_percent[0], 4));
     return estimate;

@@ -35,8 +35,8 @@ Fit ivsvf(const IdData& data, const TransferStructure& structure, const SvfOptio
         }
         if (theta.size() == 0 || !theta.allFinite())
             throw InvalidArgument(
-                "ivsvf: the equations have no unique solution: the input does not excite the system enough for {} "
-                "parameters",
+                "ivsvf: the equations have no unique solution, because the input does not excite the system enough for "
+                "{} parameters. Use a richer input or fewer parameters",
                 d);
         mirrored = mirrored || unstable;
         const double squares = std::max(

@@ -93,8 +93,8 @@ Fit lssvf(const IdData& data, const TransferStructure& structure, const SvfOptio
         const Vector theta = solve_equations(sums, &condition);
         if (!theta.allFinite())
             throw InvalidArgument(
-                "lssvf: the equations have no unique solution: the input does not excite the system enough for {} "
-                "parameters",
+                "lssvf: the equations have no unique solution, because the input does not excite the system enough for "
+                "{} parameters. Use a richer input or fewer parameters",
                 d);
         const double squares = std::max(0.0, sums.y_y - 2 * theta.dot(sums.z_y) + theta.dot(sums.z_phi * theta));
         const double variance = squares / static_cast<double>(group.sample_count() - d);

@@ -45,8 +45,8 @@ Index chosen_block_rows(const IdData& data, int order, int requested) {
     while (requested == 0 && s > least && !fits(data, s)) --s;
     if (fits(data, s)) return s;
     throw InvalidArgument(
-        "n4sid: the {} samples of the data are too few for order {} and {} block rows: they provide {} equations for "
-        "{} unknowns",
+        "n4sid: the {} samples of the data are too few for order {} and {} block rows, because they provide only {} "
+        "equations for {} unknowns. Use more data or a lower order",
         data.sample_count(), order, s, places(data, s), 2 * s * (data.input_count() + data.output_count()));
 }
 
@@ -234,8 +234,9 @@ void describe(SubspaceFit& found, bool reflected) {
     if (reflected)
         fit.warnings.push_back(Message("Eigenvalues outside the unit circle were reflected into the unit circle."));
     if (fit.condition_number > kAmbiguousCondition)
-        fit.warnings.push_back(Message("The data do not determine all entries of B separately (condition number {}).",
-                                       significant(fit.condition_number, 2)));
+        fit.warnings.push_back(
+            Message("The data do not determine all entries of B separately (condition number {}): use a richer input.",
+                    significant(fit.condition_number, 2)));
     fit.message =
         Message("Subspace method with {} block rows, order {}: fit {} % for simulation from estimated initial states.",
                 found.block_rows, found.system.order(), fits_text(fit));

@@ -79,13 +79,13 @@ std::vector<StartCondition> conditions_for(const IdData& data, const ProcessStru
         std::ranges::all_of(data.experiments, [](const Experiment& experiment) { return experiment.u(0, 0) == 0; });
     if (options.initial_state == InitialState::kSteady && !rests)
         throw InvalidArgument(
-            "A process with an integrator is at rest only for zero input, so {} \"steady\" is unsuitable: use "
+            "A process with an integrator is at rest only for zero input, so {} = \"steady\" is unsuitable: use "
             "\"none\", \"estimate\" or \"auto\"",
             OptionName{"initial_state"});
     if (options.initial_state == InitialState::kEstimate && options.offset == Offset::kEstimate)
         throw InvalidArgument(
-            "The initial state of a process with an integrator already includes its level: with {} \"estimate\", set "
-            "{} to \"none\", \"remove\" or \"auto\"",
+            "The initial state of a process with an integrator already includes the output level: with {} = "
+            "\"estimate\", set {} to \"none\", \"remove\" or \"auto\"",
             OptionName{"initial_state"}, OptionName{"offset"});
     std::erase_if(conditions, [&](const StartCondition& condition) {
         return (condition.state == InitialState::kEstimate && condition.offset) ||

@@ -75,7 +75,7 @@ Fit srivc_by_passes(const IdData& data, const TransferStructure& structure, cons
     if (estimate.termination == Termination::kConverged)
         estimate.message = Message("SRIVC converged after {}: {}.", passes, simulation_text(estimate));
     else
-        estimate.message = Message("SRIVC did not converge after {}; the result is the best iteration: {}.", passes,
+        estimate.message = Message("SRIVC did not converge after {}; the result is from the best pass: {}.", passes,
                                    simulation_text(estimate));
     return estimate;
 }

@@ -40,10 +40,11 @@ void check_inputs(const std::string& method, const IdData& data) {
 void check_outputs(const std::string& method, const IdData& data) {
     for (Index output = 0; output < data.output_count(); ++output)
         if (in_all_experiments(data, [&](const Experiment& e) { return is_constant(e.y.col(output)); }))
-            throw InvalidArgument(
-                data.output_count() == 1
-                    ? Message("{}: the output never changes, so no dynamics can be estimated", method)
-                    : Message("{}: output {} never changes, so no dynamics can be estimated", method, output + 1));
+            throw InvalidArgument(data.output_count() == 1
+                                      ? Message("{}: the output never changes, so no dynamics can be estimated", method)
+                                      : Message("{}: output {} never changes, so no dynamics can be estimated. Remove "
+                                                "this output with data:select, or use data in which it varies",
+                                                method, output + 1));
 }
 
 }  // namespace
@@ -69,7 +70,7 @@ void check_transfer_data(const std::string& method, const IdData& data, const Tr
     for (const TransferChannel& channel : structure.channels)
         for (std::size_t e = 0; e < data.experiments.size(); ++e)
             if (channel.delay >= data.duration(e))
-                throw InvalidArgument("{}: the delay of {} s is not shorter than the data of {} s", method,
+                throw InvalidArgument("{}: the delay of {} s is not shorter than the data, which last {} s", method,
                                       channel.delay, data.duration(e));
     for (Index input = 0; input < data.input_count(); ++input) {
         const bool alone = data.input_count() == 1;
@@ -125,8 +126,8 @@ DelayRange delay_range(const IdData& data, const FitOptions& options) {
     const double shortest = shortest_record(data);
     const double largest = options.largest_delay.value_or(std::max(options.least_delay, shortest / 4));
     if (largest >= shortest)
-        throw InvalidArgument("{} must be shorter than the data of {} s, but is {} s", OptionName{"largest_delay"},
-                              shortest, largest);
+        throw InvalidArgument("{} must be shorter than the data, which last {} s, but is {} s",
+                              OptionName{"largest_delay"}, shortest, largest);
     return {options.least_delay, largest};
 }
 

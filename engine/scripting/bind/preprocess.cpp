@@ -90,7 +90,7 @@ std::vector<Segment> segments_argument(const Call& call) {
     const MatrixMap rows = call.matrix(2, "{{first, last}, ...}");
     if (rows.cols() != 2 || (rows.array() != rows.array().floor()).any() || !(rows.array().abs() < 1e15).all())
         throw InvalidArgument(
-            "the ranges must be lists of two sample numbers, {{1, 200}, {350, 900}}: the first and the last of each");
+            "the ranges must be pairs of sample numbers {first, last}, such as {{1, 200}, {350, 900}}");
     std::vector<Segment> segments;
     for (const auto& row : rows.rowwise()) segments.push_back({index_of_whole(row[0]), index_of_whole(row[1])});
     return segments;

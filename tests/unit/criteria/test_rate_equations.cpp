@@ -76,7 +76,7 @@ TEST(rate_equations, weak_ones_know_that_inputs_are_held) {  // oracle: dx/dt = 
 TEST(rate_equations, refuse_what_leaves_no_room) {
     const IdData data = sampled(Vector::LinSpaced(4, 0, 3), [](double s) { return s; });
     EXPECT_THAT(thrown_message([&] { derivative_equations(data, 0, states_alone(), 5); }),
-                HasSubstr("over 5 samples need at least as many samples, but an experiment has 4"));
+                HasSubstr("each derivative needs 5 samples, but an experiment has only 4"));
     EXPECT_THAT(thrown_message([&] { weak_equations(data, 0, states_alone(), 0.4); }),
                 HasSubstr("fewer than 3 samples"));
 }

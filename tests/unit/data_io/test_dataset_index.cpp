@@ -173,7 +173,7 @@ TEST_F(dataset_index, course_files_lie_in_the_data_sets_own_folder) {
         for (const char* name : {"mine", "elsewhere.mat", "elsewhere"})
             EXPECT_EQ(complaint(name),
                       (data / "mine/SOURCE.md").string() +
-                          ": \"Course file:\" must be followed by file names in that folder, but the path \"" + path +
+                          ": \"Course file:\" must be followed by names of files in the folder of the data set, but the path \"" + path +
                           "\" was given");
     }
     write_file_atomically(data / "mine/SOURCE.md", "Mine.\nCourse file: elsewhere.mat\n");
@@ -229,7 +229,7 @@ TEST_F(dataset_index, refuses_damaged_records_of_packages) {
     write_file_atomically(folder / "SOURCE.md", "A kiln\n\nPackage: kilns " + file.string() + " 10 samples 0.5 s\n");
     write_file_atomically(file, "title\nsettings\n1\n2\n");
     EXPECT_THAT(complaint("kiln"),
-                HasSubstr("kiln.gz ends early or contains text at input 1 of 10: reinstall the package kilns"));
+                HasSubstr("kiln.gz ends early or contains text at input sample 1 of 10: reinstall the package kilns"));
 }
 
 // Facts: 1000 samples, a binary input of 3.41 and 6.41, one sample every 0.08 s; first and last values of the file.

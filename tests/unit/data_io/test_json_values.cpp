@@ -61,10 +61,10 @@ TEST(json_values, long_lists_and_objects_are_read) {
 
 TEST(json_values, errors_report_the_place) {
     EXPECT_EQ(refusal<std::vector<Part>>(R"([{"name": "a", "count": 1}, {"name": 3, "count": 1}])"),
-              "[2].name: expected a string, got JSON of the type number");
+              "[2].name: expected a string, got a JSON value of type number");
     EXPECT_EQ(refusal<std::vector<Part>>(R"([{"name": "a"}])"), "[1]: the member \"count\" is missing");
     EXPECT_EQ(refusal<Part>(R"({"name": "a", "count": 1e5})"),
-              "count: expected a whole number, got JSON of the type number");
+              "count: expected a whole number, got a JSON value of type number");
     EXPECT_EQ(refusal<Part>(R"({"name": "a", "count": 18446744073709551615})"),
               "count: expected a whole number from -32768 to 32767, got 18446744073709551615");
     EXPECT_EQ(refusal<Part>(R"({"name": "a", "count": 13})"), "the value: thirteen parts bring bad luck");

@@ -69,7 +69,7 @@ TEST(gradient_descent, reports_when_it_was_too_slow) {  // justified: years unce
     EXPECT_EQ(result.termination, Termination::kIterationLimit);
     EXPECT_EQ(result.iterations, 500);
     EXPECT_GT(result.condition_number, 1e8);
-    EXPECT_NE(message_text(result.message).find("center and scale"), std::string::npos);
+    EXPECT_NE(message_text(result.message).find("Center and scale"), std::string::npos);
 }
 
 TEST(gradient_descent, can_be_canceled) {  // oracle: definition

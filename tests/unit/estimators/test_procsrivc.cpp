@@ -233,7 +233,7 @@ TEST(procsrivc, integrating_process_cut_from_a_running_experiment) {  // oracle:
     ProcsrivcOptions options;
     options.initial_state = InitialState::kEstimate;
     options.offset = Offset::kEstimate;
-    EXPECT_THAT(refusal([&] { fit(data, "P1I", options); }), HasSubstr("already includes its level"));
+    EXPECT_THAT(refusal([&] { fit(data, "P1I", options); }), HasSubstr("already includes the output level"));
     options.initial_state = InitialState::kSteady;
     EXPECT_THAT(refusal([&] { fit(data, "P1I", options); }), HasSubstr("is at rest only for zero input"));
 }

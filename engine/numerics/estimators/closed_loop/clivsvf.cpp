@@ -33,8 +33,8 @@ Fit clivsvf(const IdData& data, const TransferStructure& structure, const SvfOpt
     }
     if (!estimate.theta.allFinite())
         throw InvalidArgument(
-            "clivsvf: the equations have no unique solution: the reference does not excite the loop enough for {} "
-            "parameters",
+            "clivsvf: the equations have no unique solution, because the reference does not excite the loop enough for "
+            "{} parameters. Use a richer reference or fewer parameters",
             structure.parameter_count());
     estimate.covariance = equations.covariance(estimate.theta);
     estimate.termination = Termination::kConverged;

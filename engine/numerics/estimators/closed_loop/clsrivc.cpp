@@ -50,8 +50,8 @@ Fit by_passes(const IdData& data, const TransferStructure& structure, const FitO
         const Vector next = equations.solution(&estimate.condition_number);
         if (!next.allFinite())
             throw InvalidArgument(
-                "clsrivc: the equations have no unique solution: the reference does not excite the loop enough for {} "
-                "parameters",
+                "clsrivc: the equations have no unique solution, because the reference does not excite the loop enough "
+                "for {} parameters. Use a richer reference or fewer parameters",
                 structure.parameter_count());
         const double change = largest_change(next, estimate.theta);
         estimate.theta = next;
@@ -131,7 +131,8 @@ Fit clsrivc(const IdData& data, const TransferStructure& structure, const FitOpt
     check_loop_data("clsrivc", data, structure);
     if (route == LoopRoute::kDirect) return direct(data, structure, own);
     if (route == LoopRoute::kIndirect && !known.controller)
-        throw InvalidArgument("clsrivc: the indirect route needs a known controller");
+        throw InvalidArgument(
+            "clsrivc: the indirect route needs a known controller; specify the controller, or choose another route");
     const LoopSignals signals("clsrivc", data, known);
     if (route == LoopRoute::kTwoStage) return two_stage(data, structure, own, signals);
     Fit estimate = by_passes(data, structure, own, signals);

@@ -49,8 +49,8 @@ std::vector<Cut> cuts_of(const IdData& data, const BlaOptions& options, Index& r
             throw InvalidArgument("bla: the period of {} samples is longer than a realization of {} samples",
                                   options.period, length);
         if (options.transient >= periods)
-            throw InvalidArgument("bla: no data remain after {} of {} are omitted", options.transient,
-                                  plural(periods, "{} period", "{} periods"));
+            throw InvalidArgument("bla: no data remain after {} of {} are omitted; omit fewer periods",
+                                  options.transient, plural(periods, "{} period", "{} periods"));
         rest = length - periods * options.period;
         for (Index r = 0; r < options.realizations; ++r)
             cuts.push_back({e, r * length + rest + options.transient * options.period, periods - options.transient});

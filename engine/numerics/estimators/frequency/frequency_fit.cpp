@@ -99,8 +99,9 @@ std::vector<Start> starts_of(const FrequencyData& data, const TransferStructure&
         if (stable || !stable_alone) starts.push_back({found, delay});
     }
     if (starts.empty())
-        throw InvalidArgument("the response does not determine a model with {}: the equations have no solution",
-                              plural(pole_count(structure), "{} pole", "{} poles"));
+        throw InvalidArgument(
+            "the response does not determine a model with {}, because the equations have no solution. Use fewer poles",
+            plural(pole_count(structure), "{} pole", "{} poles"));
     return starts;
 }
 

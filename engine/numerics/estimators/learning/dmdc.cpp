@@ -48,7 +48,7 @@ Snapshots neighboring_snapshots(const IdData& data, const Scale& scale, Index d)
     for (const Experiment& record : data.experiments) columns += std::max<Index>(0, record.y.rows() - d);
     if (columns <= rows + nu)
         throw InvalidArgument(
-            "dmdc: too few samples: more than {} snapshots are required, but the data have {}: use fewer delays",
+            "dmdc: more than {} snapshots are required, but the data have only {}. Use more data, or fewer delays",
             rows + nu, columns);
     Snapshots pairs{Matrix(rows + nu, columns), Matrix(rows, columns)};
     for (const Experiment& record : data.experiments) {

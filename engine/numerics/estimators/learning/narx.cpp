@@ -147,8 +147,10 @@ void check(const IdData& data, const NarxLags& lags, const NarxOptions& options,
             "data, fewer lags or a lower degree",
             rows, candidates);
     if (rows <= least)
-        throw InvalidArgument("narx: too few samples: {} have all required past values, but more than {} are needed",
-                              std::max<Index>(rows, 0), least);
+        throw InvalidArgument(
+            "narx: the number of samples with all required past values is {}, but must be greater than {}. Use more "
+            "data, fewer lags or fewer terms",
+            std::max<Index>(rows, 0), least);
 }
 
 }  // namespace
@@ -212,8 +214,9 @@ FreeRun NarxModel::free_run(const IdData& data, std::size_t experiment, const Ve
     if (!data.regular() || std::abs(data.Ts - Ts_) > 1e-6 * Ts_)
         throw InvalidArgument(
             data.regular()
-                ? Message("narx: the model has the sampling time {} s, but the data have {} s", Ts_, data.Ts)
-                : Message("narx: the model has the sampling time {} s, but the data are irregularly sampled", Ts_));
+                ? Message("narx: the sampling time of the model is {} s, but the sampling time of the data is {} s",
+                          Ts_, data.Ts)
+                : Message("narx: the sampling time of the model is {} s, but the data are irregularly sampled", Ts_));
     const Experiment& record = data.experiments[experiment];
     const Index N = record.u.rows() > 0 ? record.u.rows() : record.y.rows(), first = lags_.first();
     if (N <= first)
@@ -264,7 +267,8 @@ NarxFit narx(const IdData& data, const NarxLags& lags, const NarxOptions& option
     const Matrix R = candidates_and_output(data, lags, monomials, options.cancel);
     const Index most = options.terms > 0 ? options.terms : std::min({kMaxTerms, monomials.count(), rows - 2});
     const Choice choice = choose_forwards(R, rows, most, options.cancel);
-    if (choice.terms.empty()) throw InvalidArgument("narx: no candidate term explains the output");
+    if (choice.terms.empty())
+        throw InvalidArgument("narx: no candidate term explains the output. Use other lags or a higher degree");
     const std::vector<Index> terms(choice.terms.begin(), choice.terms.begin() + number_of_terms(choice, options.terms));
     NarxFit found;
     solve_chosen(found, R, terms, rows);

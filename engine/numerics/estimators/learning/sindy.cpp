@@ -44,11 +44,11 @@ Rotated rotated_equations(const IdData& data, const FunctionLibrary& library, co
     rotated.R = factor.R();
     if (rotated.rows > functions) return rotated;
     throw InvalidArgument(
-        width ? Message("sindy: too few samples: the number of equations must be greater than the number of functions, "
-                        "{}, but is {}: use a smaller {} or fewer functions",
+        width ? Message("sindy: the number of equations must be greater than the number of functions, {}, but is {}. "
+                        "Use more samples, a smaller {} or fewer functions",
                         functions, rotated.rows, OptionName{"width"})
-              : Message("sindy: too few samples: the number of equations must be greater than the number of functions, "
-                        "{}, but is {}: use fewer functions, or {} if the input jumps often",
+              : Message("sindy: the number of equations must be greater than the number of functions, {}, but is {}. "
+                        "Use more samples or fewer functions, or {} if the input jumps often",
                         functions, rotated.rows, OptionName{"weak"}));
 }
 
@@ -124,15 +124,17 @@ void judge(SindyFit& found, const IdData& data) {
 
 void check(const IdData& data, const FunctionLibrary& library, const SindyOptions& options) {
     options.validate();
-    if (library.count() == 0) throw InvalidArgument("sindy: the library contains no function");
+    if (library.count() == 0) throw InvalidArgument("sindy: the library contains no functions");
     if (data.output_count() < 1 || data.output_count() > kMaxIntegratedStates)
         throw InvalidArgument("sindy uses the outputs as states and supports 1 to {} outputs, but the data have {}",
                               kMaxIntegratedStates, data.output_count());
     const Vector variations = output_variations(data);
     for (Index i = 0; i < variations.size(); ++i)
         if (!(variations[i] > 0))
-            throw InvalidArgument("sindy: the state {} never changes, so its equation cannot be estimated",
-                                  data.output_names[static_cast<std::size_t>(i)]);
+            throw InvalidArgument(
+                "sindy: the state {} never changes, so its equation cannot be estimated. Use data in which all states "
+                "vary",
+                data.output_names[static_cast<std::size_t>(i)]);
 }
 
 Vector largest_states(const IdData& data) {
@@ -170,7 +172,7 @@ void describe(SindyFit& found, const IdData& data, const SindyOptions& options) 
                     significant(fit.condition_number, 2)));
     judge(found, data);
     const Message equations = options.weak ? Message("in weak form") : Message("from derivatives");
-    fit.message = Message("Sparse equations {}, {} of {} kept: {}.", equations, theta.size(),
+    fit.message = Message("Sparse equations {} with {} of {}: {}.", equations, theta.size(),
                           plural(Xi.size(), "{} coefficient", "{} coefficients"), simulation_text(fit));
 }
 

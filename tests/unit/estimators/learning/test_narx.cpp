@@ -142,8 +142,8 @@ TEST(narx, refuses_what_cannot_be_fitted) {
                     narx(data, kLags, {2, 16});
                 }),
                 HasSubstr("the lags and the degree allow only 15 candidates"));
-    EXPECT_THAT(thrown_message([&] { narx(data, {49, {1}, {1}}, {1, 0}); }), HasSubstr("too few samples: 1"));
-    EXPECT_THAT(thrown_message([&] { narx(data, {60, {1}, {1}}, {1, 0}); }), HasSubstr("too few samples: 0"));
+    EXPECT_THAT(thrown_message([&] { narx(data, {49, {1}, {1}}, {1, 0}); }), HasSubstr("all required past values is 1,"));
+    EXPECT_THAT(thrown_message([&] { narx(data, {60, {1}, {1}}, {1, 0}); }), HasSubstr("all required past values is 0,"));
     EXPECT_THAT(thrown_message([&] { narx(data, kLags, {2, -1}); }), HasSubstr("`terms`"));
     EXPECT_THAT(thrown_message([&] {
                     narx(data, kLags, {4, 0});
