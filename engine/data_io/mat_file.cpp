@@ -68,7 +68,7 @@ Message refusal_of_object(std::size_t number, const std::string& last_name) {
 /// The next header; nothing at the end. HDF5 finds every variable separately, so that an invalid one (a link to another
 /// file) is skipped.
 MatVariable next_variable(mat_t* mat, bool is_hdf5, MatioComplaints& complaints, std::vector<Message>& left_out) {
-    constexpr int kMostLost = 64;  // in a row; libmatio may complain of the last one for ever
+    constexpr int kMostLost = 64;  // in a row; libmatio may report the last one forever
     for (int lost = 0; lost < kMostLost; ++lost) {
         MatVariable variable(Mat_VarReadNextInfo(mat));
         if (variable || !is_hdf5 || complaints.first().empty()) return variable;
@@ -88,8 +88,8 @@ struct MatContent {
 
 DYNLAB_DESCRIBE(MatContent, variables, left_out, refusal)
 
-/// A guarded copy gives up opening files (a box sees no others anyway). libmatio has
-/// opened the one it reads, and HDF5 would follow links of a v7.3 file to others.
+/// A guarded copy gives up opening files (a sandbox contains no others anyway). libmatio has opened its file, and HDF5
+/// would follow links of a v7.3 file to others.
 MatContent read_variables(const fs::path& file) {
     const MatLayout layout = check_mat_layout(file);
     MatioComplaints complaints;

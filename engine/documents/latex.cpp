@@ -251,8 +251,8 @@ class LatexRun {
         return child;
     }
 
-    /// LuaTeX's own language reaches files and programs. What formulas may hold does not reach that language; the box
-    /// is the second wall. A document that is made inside of a box cannot have another.
+    /// LuaTeX's own language can access files and programs. Allowed formulas cannot access that language; the sandbox
+    /// is the second barrier. A document that is made inside a sandbox cannot have another one.
     bool is_boxed() const { return engine_.program == kLualatex.program && strongest_isolation() == Isolation::kFull; }
 
     ChildResult run_in_box(const ChildOptions& requested) const {

@@ -17,7 +17,8 @@ class InterruptScope {
     InterruptScope& operator=(const InterruptScope&) = delete;
 };
 
-/// While an object of this class exists, the program gets time to end: it has workers to notify, or a user to serve.
+/// While an object of this class exists, an interrupted program is not ended after the usual delay: it has workers to
+/// notify, or a user to serve.
 class SlowEnding {
   public:
     SlowEnding();

@@ -53,7 +53,7 @@ class Sandbox {
         std::optional<std::uint64_t> memory_bytes;   ///< address space of each process
     };
     /// `command` names this program (its place comes from add_program) or one in /usr/bin. `folder` is a place in the
-    /// box.
+    /// sandbox.
     ChildResult run(const std::vector<std::string>& command, const std::filesystem::path& folder,
                     const std::string& input, const Limits& limits) const;
 

@@ -35,7 +35,7 @@ struct Lesson {
     std::filesystem::path report(const std::string& language) const { return folder / ("report." + language + ".md"); }
 };
 
-/// The lesson in a folder of anybody's, called like the folder; nothing where there is no lesson.lua.
+/// The lesson in any folder, with the folder's name; nothing if there is no lesson.lua.
 std::optional<Lesson> lesson_in(const std::filesystem::path& folder);
 
 /// All lessons, sorted by number and, for equal numbers, by subtitle (3.1, 3.2): those in the folders that

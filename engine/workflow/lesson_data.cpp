@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The run of the worked solution as grading does it: on the course's own data, and nothing is drawn.
+/// The run of the reference solution as grading does it: on the course's own data, and nothing is drawn.
 RunRecord run_of_solution(const PercentScript& script) {
     const TemporaryFolder out;
     RunOptions options;

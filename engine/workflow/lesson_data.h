@@ -11,9 +11,9 @@ namespace dynlab::inline workflow {
 /// The simulated data sets among those that a run read, sorted: groups may have their own versions of these data sets.
 std::vector<std::string> simulated_data_of(const RunRecord& record);
 
-/// Those that the lesson's worked solution reads, however its script spells or computes their names: it is run for
-/// this, its figures undrawn, and what it read is kept for the same script. Throws EnvironmentError where the solution
-/// stops with an error.
+/// The data sets that the lesson's reference solution reads, regardless of how its script spells or computes their
+/// names. The solution is run for this, without drawing figures, and the result is cached for the same script. Throws
+/// EnvironmentError if the solution stops with an error.
 std::vector<std::string> simulated_data_of(const Lesson& lesson);
 
 /// Whether a lesson brings data along: a folder `data` with data sets (each a folder with SOURCE.md), or files .csv or

@@ -37,7 +37,7 @@ struct ReportRequest {
                                                      ///< again, and not at all where the script fails
 };
 
-/// The document of a request, filled from the run results `record`, which must outlive it.
+/// The document of a request, filled from its run results, which must outlive it.
 DocumentSource document_source(const ReportRequest& request, const RunRecord& record);
 
 /// The step of the timings that the cells' own are part of.

@@ -10,11 +10,12 @@
 namespace dynlab::inline workflow {
 
 /// Makes a student's folder for a lesson: analysis.lua (the script without its solutions), report.md, group.toml and a
-/// link to the data. With a group's seed, a folder `data` replaces the link. It contains the group's own versions
-/// (variant_data.h) of the data sets that the lesson loads (lesson_data.h: the lesson may be run for this), and the
-/// data sets that the lesson contains. Report and tasks are in `language` ("en", "fr"), the lesson's when empty; tasks
-/// only if the lesson has tasks.LANGUAGE.lua. The folder is created completely, with everything that `further` puts
-/// into it, or not at all. Throws EnvironmentError if `folder` exists and is not empty, or cannot be made.
+/// link to the data. A folder `data` replaces the link if the lesson contains data sets, or if a group's seed is given.
+/// It contains the lesson's data sets and the group's own versions (variant_data.h) of the simulated data sets that the
+/// lesson loads (lesson_data.h: the lesson may be run for this). Report and tasks are in `language` ("en", "fr"), the
+/// lesson's when empty; tasks only if the lesson has tasks.LANGUAGE.lua. The folder is created completely, with
+/// everything that `further` puts into it, or not at all. Throws EnvironmentError if `folder` exists and is not empty,
+/// or cannot be made.
 void make_student_copy(const Lesson& lesson, const std::filesystem::path& folder,
                        std::optional<std::uint32_t> group_seed = {}, const std::string& language = {},
                        const std::function<void(const std::filesystem::path& growing)>& further = {});

@@ -33,8 +33,8 @@ struct RunnerEnvironment {
 /// A message of the runner.
 struct RunnerNews {
     /// "split": another process continues, and its line comes with the message; "begun": a part starts; "progress": the
-    /// progress of a long calculation; "done": the part is finished, `record` contains everything up to here; "ended":
-    /// all parts are finished, or one failed; "answer": to a question, shown["answer"] is JSON.
+    /// progress of a long calculation; "done": the part is finished, and the message contains all run results up to
+    /// here; "ended": all parts are finished, or one failed; "answer": to a question, shown["answer"] is JSON.
     std::string kind;
     std::size_t part = 0;
     std::int64_t process = 0;  ///< number of the process that goes on

@@ -25,7 +25,8 @@ struct RecordChoice {
 };
 DYNLAB_DESCRIBE(RecordChoice, data, columns, look)
 
-/// `data`: a file or a data set; without `look` unless `tells` is true. Throws EnvironmentError as load_data() does.
+/// Summarizes `data`, a file or a data set. With false as the second argument, `look` stays empty. Throws
+/// EnvironmentError as load_data() does.
 RecordChoice summarize_record(const std::string& data, bool tells = true);
 
 /// What was chosen of it.

@@ -49,8 +49,8 @@ std::optional<fs::path> pdf_below(const fs::path& folder) {
     return found.size() == 1 ? std::optional(found.front()) : std::nullopt;
 }
 
-/// Printing can lose the mapping from glyphs to letters of a script; dynlab then reads the letters from the printed
-/// PDF.
+/// The layout of the original PDF; empty if it cannot be read. Printing can lose the mapping from the glyphs of some
+/// scripts to letters; the anonymity check then takes the letters from the original PDF.
 PdfLayout layout_or_nothing(const fs::path& file) {
     try {
         return read_pdf_layout(file);

@@ -12,8 +12,8 @@ namespace dynlab::inline course {
 /// The text with & < > " as entities, and without control characters.
 std::string escaped_html(std::string_view text);
 
-/// The formulas $...$ and $$...$$ of texts in Markdown as MathML. Pandoc reads them in a box; one that it cannot read
-/// stays as it is written, and so do all of them where Pandoc fails.
+/// The formulas $...$ and $$...$$ of Markdown texts as MathML. Pandoc reads them in a sandbox. A formula that Pandoc
+/// cannot read stays as source text; if Pandoc fails, all formulas do.
 class TypesetFormulas {
   public:
     TypesetFormulas(const std::vector<std::string>& texts, Isolation isolation);

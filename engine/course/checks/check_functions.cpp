@@ -334,7 +334,7 @@ void push_answers(const Call& call, const std::string& run) {
     lua_setmetatable(L, -2);
 }
 
-/// The sentence of the first typical mistake that was made.
+/// The sentence of the first common mistake that the answers match.
 std::optional<Message> mistake_made(const Call& call, const DeclaredCheck& check, int answers) {
     if (check.mistakes == 0) return {};
     lua_State* L = call.state();

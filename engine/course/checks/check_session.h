@@ -27,7 +27,7 @@ struct CheckDescription {
 /// A check as its file declares it.
 struct DeclaredCheck : CheckDescription {
     int test = 0;      ///< index of the function in Lua's registry, 0 where it is marked by hand
-    int mistakes = 0;  ///< index of the list of typical mistakes, 0 for none
+    int mistakes = 0;  ///< index of the list of common mistakes, 0 for none
 };
 
 /// What a check says of a submission.
@@ -54,13 +54,15 @@ inline constexpr char kRunOfAnswers[] = "run";      ///< field of a metatable: f
 /// What the functions of checks.lua share while a submission is checked.
 struct CheckSession {
     std::vector<DeclaredCheck> checks;
-    std::map<std::string, DeclaredPlant> rigs;       ///< by data set
-    std::map<std::string, GradedRun> runs;           ///< kMainRun, and one for each rerun
-    std::string source;                              ///< the student's script
-    Issues findings;                                 ///< of the document
-    std::map<std::string, PlantVariants> specimens;  ///< by run, "hidden" for hidden(); missing: 0
-    std::filesystem::path hidden_folder;             ///< holds NAME.mat or NAME.csv
-    bool visible_file = true;                        ///< of the file that is being read
+    std::map<std::string, DeclaredPlant> rigs;  ///< by data set
+    std::map<std::string, GradedRun> runs;      ///< kMainRun, and one for each rerun
+    std::string source;                         ///< the student's script
+    Issues findings;                            ///< of the document
+    /// Plant variants of the data sets that each run read, by run; "hidden": those of hidden(). Data sets without an
+    /// entry are the common ones, variant 0.
+    std::map<std::string, PlantVariants> specimens;
+    std::filesystem::path hidden_folder;  ///< holds NAME.mat or NAME.csv
+    bool visible_file = true;             ///< of the file that is being read
     const DeclaredCheck* current = nullptr;
     bool took_hidden = false;             ///< the current check used a hidden data set or its theoretical values
     Message answer_error;                 ///< why an answer that the current check requested is missing; quotes no data

@@ -6,7 +6,7 @@
 
 namespace dynlab::inline course {
 
-/// What one script, or one change of the worked solution's answers, gets from the checks.
+/// The check results of one script, or of one change of the reference solution's answers.
 struct EvaluatedScript {
     std::string name;
     Message error_reason;                ///< why it did not run to its end
@@ -28,11 +28,11 @@ struct CheckTrial {
     bool sound() const;
 };
 
-/// Tries the checks of `setup` on the lesson's worked solution, its starter, its wrong_*.lua and right_*.lua, the
+/// Runs the checks of `setup` on the lesson's reference solution, its starter, its wrong_*.lua and right_*.lua, the
 /// scripts in the folder `try` of the instructor's checks, and on mutants of the solution's answers: each number of an
-/// answer 1.5 times as large, of the other sign, the answer left out. Students read checks.lua: numbers in it that are
-/// within a tenth of an answer of the solution are tried as typed-in answers. Scripts are run, the others are not.
-/// Throws EnvironmentError as GradingRules does.
+/// answer multiplied by 1.5, with the other sign, the answer left out. Students can read checks.lua: numbers in it that
+/// are within a tenth of an answer of the solution are tested as typed-in answers. Scripts are run, mutants and
+/// typed-in answers are not. Throws EnvironmentError as GradingRules does.
 enum class Mutants { kAll, kNone };
 CheckTrial try_checks_of(const GradingSetup& setup, Mutants mutants = Mutants::kAll);
 

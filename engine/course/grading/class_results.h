@@ -35,9 +35,9 @@ Attention what_needs_attention(const ClassResults& results);
 /// For each entry, the name of the entry that counts instead, for each of its owners; empty if the entry itself counts.
 std::vector<std::string> counted_instead(const ClassResults& results);
 
-/// Writes gradebook.csv (a row for each student of the roster, or each submission where there is none) and the summary
-/// (report_templates/class_summary.md, set in a box): numbers, histogram, success of each check, what needs
-/// attention. Missing marks by hand get rows in marks.csv (manual_marks.h); summary.json has the
+/// Writes gradebook.csv (a row for each student of the roster, or each submission if there is no roster) and the
+/// summary (report_templates/class_summary.md, set in a sandbox): numbers, histogram, success of each check,
+/// submissions that need attention. Missing marks by hand get rows in marks.csv (manual_marks.h); summary.json has the
 /// numbers for programs (grading/class_statistics.h).
 void write_class_results(const ClassResults& results, const Attention& attention);
 

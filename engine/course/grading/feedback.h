@@ -11,7 +11,7 @@ Number points_number(double points);                ///< with at most two digits
 std::string points_text(double points);             ///< in English
 Message points_of(double earned, double possible);  ///< "2.5 of 3"
 
-/// Text of anybody's as Markdown that means nothing but itself.
+/// Untrusted text as Markdown without special meaning.
 std::string escaped_markdown(const std::string& text);
 /// The same for readers of the Markdown itself: only what would change its meaning is escaped.
 std::string readable_markdown(const std::string& text);

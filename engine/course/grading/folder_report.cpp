@@ -41,7 +41,7 @@ ChildResult run_report(const fs::path& folder, const fs::path& out, const fs::pa
 std::optional<RecordedError> error_of_run(const fs::path& record) {
     try {
         if (fs::is_regular_file(fs::symlink_status(record))) return record_from_json(read_file(record)).error;
-    } catch (const ValueError&) {  // the box was ended as it wrote
+    } catch (const ValueError&) {  // the sandbox was ended during its output
     }
     return {};
 }

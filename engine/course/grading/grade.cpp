@@ -72,7 +72,7 @@ bool Grade::whole() const {
 std::string to_results_json(const Grade& grade, const Grade& marked) {
     json tests = json::array();
     for (const CheckGrade& check : marked.checks) tests.push_back(test_of(check, tests.size() + 1));
-    Grade kept = grade;  // the file may be handed on to students
+    Grade kept = grade;  // the file may be passed on to students
     for (CheckGrade& check : kept.checks)
         if (!check.visible) check.message = Message();
     JsonWriter writer;

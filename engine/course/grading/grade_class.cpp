@@ -66,7 +66,8 @@ class ClassGrader {
   private:
     using Waiting = std::pair<std::size_t, GradingPipeline::ToCheck>;
 
-    /// How many are checked in one box: enough to forget its start, few enough to keep all threads busy.
+    /// The number of submissions that one sandbox checks: enough to make its start negligible, few enough to keep all
+    /// threads busy.
     std::size_t checked_together() const {
         constexpr std::size_t kMax = 16, kSharesOfAThread = 4;
         const auto threads = static_cast<std::size_t>(std::max(1, options_.setup.jobs));

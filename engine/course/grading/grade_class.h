@@ -22,14 +22,14 @@ struct GradingOutcome {
 /// One run at a time works in a folder of results, which is made. Throws EnvironmentError where another does.
 FileLock lock_results(const std::filesystem::path& out);
 
-/// The rules of a class, tried on the worked solution of the lesson.
+/// The rules of a class, tested on the reference solution of the lesson.
 struct EvaluatedRules {
     /// Throws EnvironmentError: isolation that this machine does not have, checks that cannot be read, and results of
     /// another lesson in the folder.
     explicit EvaluatedRules(const GradingOptions& options);
 
     GradingRules rules;
-    std::vector<Message> complaints;  ///< of checks that the worked solution fails: they are left ungraded
+    std::vector<Message> complaints;  ///< of checks that the reference solution fails: they are left ungraded
     std::optional<Message> note;      ///< that there is little time
 };
 

@@ -40,7 +40,8 @@ class GradingPipeline {
         std::string log;
     };
     Run run(const WorkItem& item) const;
-    /// Checked: the grades of several, which share one box, in their order.
+    /// A submission to check. check() checks several submissions in one shared sandbox and returns their grades in
+    /// order.
     struct ToCheck {
         const WorkItem* item = nullptr;
         std::string key;

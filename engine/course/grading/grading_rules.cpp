@@ -41,7 +41,7 @@ std::string standard_for(const Lesson& lesson, const PercentScript& script) {
     return demands || !fs::exists(report) ? script.header.template_name : report.string();
 }
 
-/// One of the cores that boxes share, waited for.
+/// One of the cores that sandboxes share; the constructor waits for it.
 class TakenCore {
   public:
     explicit TakenCore(std::counting_semaphore<>& free) : free_(free) { free_.acquire(); }

@@ -30,7 +30,7 @@ struct GradingSetup {
     Isolation isolation = Isolation::kFull;
     TimeLimits time{std::chrono::seconds(60)};  ///< of each run of a student's script
     std::filesystem::path program;              ///< dynlab
-    int jobs = 1;                               ///< boxes that may run at once
+    int jobs = 1;                               ///< sandboxes that may run at once
     /// Cache::root() of a lasting cache, from which runs recall long calls and in which they keep them: for scripts of
     /// the course itself. What is graded computes everything.
     std::optional<std::filesystem::path> call_memory;
@@ -84,9 +84,9 @@ class GradingRules {
     const GradingSetup& setup() const { return setup_; }
     const std::vector<CheckDescription>& checks() const { return checks_; }
 
-    /// Seconds of processor time of the worked solution's runs, by name, where it is not tried here.
+    /// Sets the seconds of processor time of the reference solution's runs, by name, if the solution is not run here.
     void compare_with_solution(std::map<std::string, double> seconds) { solution_seconds_ = std::move(seconds); }
-    /// A sentence where the worked solution leaves little time to slower ones.
+    /// A sentence if the reference solution leaves little time to slower solutions.
     std::optional<Message> note_on_time() const;
 
   private:
@@ -135,7 +135,7 @@ class GradingRules {
     std::vector<std::string> declared_plants_;
     std::string own_records_;  ///< hashes of all data sets that scripts find, and of the instructor's data sets
     bool document_ = false;
-    std::unique_ptr<std::counting_semaphore<>> free_cores_;  ///< for what runs in boxes
+    std::unique_ptr<std::counting_semaphore<>> free_cores_;  ///< for runs in sandboxes
     TemporaryFolder records_;
     std::unique_ptr<std::mutex> making_ = std::make_unique<std::mutex>();  ///< guards groups' data sets and simulated_
 };

@@ -19,18 +19,18 @@ using LessonFaults = std::vector<LessonFault>;
 /// untranslated sentences of the checks, an answer that is never submitted.
 LessonFaults faults_of_texts(const Lesson& lesson);
 
-/// What its checks give: the worked solution wants full marks, the untouched starter none; each wrong_*.lua has to fail
-/// those checks that its lines "-- expects: CHECK: part of the message" name, with these words, and no other;
-/// right_*.lua none. `warnings` gets those of giveaways_of. Throws as try_checks_of.
+/// Tests the lesson's checks. The reference solution must get full marks and the untouched starter none. Each
+/// wrong_*.lua must fail exactly the checks that its lines "-- expects: CHECK: part of the message" name, with these
+/// words; right_*.lua must fail none. `warnings` gets the results of giveaways_of. Throws as try_checks_of does.
 LessonFaults faults_of_checks(const GradingSetup& setup, LessonFaults* warnings = nullptr);
 LessonFaults faults_of_checks(const Lesson& lesson, const CheckTrial& trial);  ///< of checks that were tried
 
 /// Checks that students can read and that a number from them passes, typed in as the answer.
 LessonFaults giveaways_of(const CheckTrial& trial);
 
-/// What its documents look like, in each language it has: the report of the worked solution without gaps, ??, marks of
-/// solutions or more pages than its template allows; the student's copy, which runs, hands no answer in, reports no
-/// value, and has a report.
+/// Tests the lesson's documents, in each of its languages: the report of the reference solution must have no gaps, ??,
+/// marks of solutions or more pages than its template allows; the student's copy must run, submit no answer, report no
+/// value, and have a report.
 LessonFaults faults_of_documents(const Lesson& lesson);
 
 }  // namespace dynlab::inline course

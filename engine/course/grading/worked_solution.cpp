@@ -1,4 +1,4 @@
-// The worked solution, which tries the checks of GradingRules before they grade.
+// The reference solution, on which GradingRules tests its checks before grading.
 #include <algorithm>
 
 #include "course/grading/cached_stages.h"
@@ -12,10 +12,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMuchOfTheTime = 0.5;  // that a worked solution uses
+constexpr double kMuchOfTheTime = 0.5;  // that a reference solution uses
 
-/// That the worked solution fails a check; with what stopped a run that the check rests on, as the answers are missing
-/// for that reason.
+/// The message that the reference solution fails a check. It names the error of a run that the check depends on, if the
+/// error is the reason for missing answers.
 Message complaint_about(const CheckDescription& check, const std::map<std::string, GradedRun>& runs,
                         const Message& said) {
     for (const std::string& name : {std::string(kMainRun), check.rerun}) {

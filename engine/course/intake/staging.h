@@ -28,14 +28,13 @@ void zip_submission(const Submission& submission, const std::filesystem::path& z
 /// at the end, "my%20analysis.lua", "analysis (1).lua", "analysis-1.lua", "ada_4711_analysis.lua"; else empty.
 std::string script_name_meant_by(const std::string& name);
 
-/// Brings a submission's files into `to`, an empty folder, and finds analysis.lua: at any depth, in archives within
-/// archives as well where there is none outside of them; a notebook analysis.ipynb becomes one (notebooks.h). Of
-/// several the newest is taken: by the numbers in their names
-/// ("work.zip", "work_v2.zip"), else by the scripts' times. A script to whose name a platform added
-/// ("..._analysis.lua", "analysis-1.lua") is taken under its own, and where there is none, one whose name a browser or
-/// a system changed ("Analysis.lua", "analysis.lua.txt", "analysis (1).lua"); one in UTF-16 is brought to UTF-8.
-/// Archives are unpacked in a box by `program`. Throws SubmissionError with a sentence for the student: there is none,
-/// with what there is instead; several of one age; too large.
+/// Copies a submission's files into `to`, an empty folder, and finds analysis.lua: at any depth, and inside nested
+/// archives if there is none outside of them; a notebook analysis.ipynb is converted (notebooks.h). Of several scripts
+/// the newest is taken: by the numbers in their names ("work.zip", "work_v2.zip"), else by the scripts' times. A script
+/// whose name a platform extended ("..._analysis.lua", "analysis-1.lua") gets its original name. If there is no such
+/// script, a script is taken whose name a browser or a system changed ("Analysis.lua", "analysis.lua.txt", "analysis
+/// (1).lua"). A script in UTF-16 is converted to UTF-8. `program` unpacks archives in a sandbox. Throws SubmissionError
+/// with a sentence for the student: no script, with a list of the existing files; several of one age; too large.
 StagedWork stage_submission(const Submission& submission, const std::filesystem::path& to, Isolation level,
                             const std::filesystem::path& program, const SubmissionLimits& limits = {});
 

@@ -50,14 +50,14 @@ struct SubmissionLimits {
     bool keep_times = false;  ///< of the files in an archive
 };
 
-/// Unpacks a submission's archive into `to`, which is made, in a box by `program`. Returns what was left out, each
-/// as a clause ("\"../x\" leads outside of the archive"). Throws SubmissionError.
+/// Unpacks a submission's archive into `to`, which is created, with `program` in a sandbox. Returns the entries that
+/// were left out, each as a clause ("\"../x\" leads outside of the archive"). Throws SubmissionError.
 std::vector<Message> unpack_submission(const std::filesystem::path& archive, const std::filesystem::path& to,
                                        Isolation level, const std::filesystem::path& program,
                                        const SubmissionLimits& limits = {});
 
-/// Unpacks the one zip in which an LMS exports all submissions into `to`, an empty folder, in a box.
-/// Returns what was left out as unpack_submission does. Throws EnvironmentError.
+/// Unpacks the one zip in which an LMS exports all submissions into `to`, an empty folder, in a sandbox. Returns the
+/// entries that were left out as unpack_submission does. Throws EnvironmentError.
 std::vector<Message> unpack_export(const std::filesystem::path& archive, const std::filesystem::path& to,
                                    Isolation level, const std::filesystem::path& program);
 

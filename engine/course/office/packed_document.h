@@ -22,9 +22,9 @@ struct OpenedPack {
     Message missing;  ///< where there is none, a clause: "no PDF in the pack"
 };
 
-/// Unpacks a pack into `to`/pack, in a box by `program`, and finds the PDF that is its `part` ("report", "slides",
-/// "review"): the one of that name that lies highest, or the only one. Where there is none at all it is made of the
-/// pack's analysis and text, in a box as well. Throws SubmissionError for a pack that cannot be unpacked.
+/// Unpacks a pack into `to`/pack with `program` in a sandbox, and finds the PDF that is its `part` ("report", "slides",
+/// "review"): the PDF of that name at the highest level, or the only one. If there is no PDF, it is created from the
+/// pack's analysis and text, in a sandbox as well. Throws SubmissionError for a pack that cannot be unpacked.
 OpenedPack open_pack(const std::filesystem::path& pack, const std::string& part, const std::filesystem::path& to,
                      Isolation level, const std::filesystem::path& program);
 

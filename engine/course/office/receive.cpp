@@ -148,8 +148,8 @@ class SubmissionReceiver {
         return request_.of.size() == 1 ? request_.of.front() : request_.of[file.given];
     }
 
-    /// Refuses a report that arrives after the reviews were sent or released. Such a report is the final version,
-    /// unless the file is already known.
+    /// Refuses a report whose reviews are released, or whose review deadline is over after it was sent to reviewers.
+    /// Such a report is the final version, unless the file is already known.
     void refuse_after_reviews(const Candidate& candidate) const {
         bool sent = false, released = false;
         for (const ReviewPair& pair : pairs_) {

@@ -153,7 +153,7 @@ class CopySender {
         }
         const std::string& author = to_reviewers() ? pair.author_name : pair.reviewer_name;
         const TemporaryFolder scratch;
-        const auto under_its_name = [&](const ValidFile& v) {  // the store's own names have no extension
+        const auto under_its_name = [&](const ValidFile& v) {  // the store's own names do not show the file type
             const fs::path file = scratch.path() / fs::path(v.name).filename();
             fs::copy_file(course_.file(v.hash), file);
             return file;

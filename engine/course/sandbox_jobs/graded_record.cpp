@@ -17,8 +17,8 @@ std::string end_of_printed(const RunRecord& record, const PercentScript& script)
     return printed.size() > kPrinted ? printed.substr(printed.size() - kPrinted) : printed;
 }
 
-/// A result that exceeds the box's output would be lost whole. Each answer that does not fit is left out instead, and
-/// the error names the first.
+/// A result that exceeds the sandbox's output limit would be lost completely. Each answer that does not fit is left out
+/// instead, and the error names the first.
 void keep_what_fits(GradedRun& run) {
     std::size_t used = 0;
     const auto fits = [&](std::size_t bytes) {

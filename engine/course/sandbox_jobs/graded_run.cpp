@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::size_t kMostOutput = 4u << 20;  // of printed text
 constexpr int kOpenFiles = 64;
-constexpr int kClockMultiple = 1000;  // the box's own limit by the clock comes first
+constexpr int kClockMultiple = 1000;  // the sandbox's own clock limit comes first
 
 /// Lua's own functions look at no clock: from its limit of processor time on the script is stopped at its next step, so
 /// that what it answered before counts. One at a time; on the thread that runs the script.

@@ -11,7 +11,7 @@
 
 namespace dynlab::inline course {
 
-constexpr std::uint64_t kMaxGradedRunBytes = 4ull << 20;  ///< bytes of a GradedRun outside its box
+constexpr std::uint64_t kMaxGradedRunBytes = 4ull << 20;  ///< bytes of a GradedRun outside its sandbox
 
 /// Results of a run that checks can read. A script that cannot be read has only an error.
 struct GradedRun {

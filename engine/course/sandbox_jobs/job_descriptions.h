@@ -7,8 +7,8 @@
 
 namespace dynlab::inline course {
 
-/// Jobs for boxes and what comes of them, as data_io/values/described.h stores them; those of checks are described in
-/// checks/check_descriptions.h, that of a report's version in review/version_description.h.
+/// Jobs for sandboxes and their results, as data_io/values/described.h stores them. Jobs of checks are described in
+/// checks/check_descriptions.h, the job of a report's version in review/version_description.h.
 
 DYNLAB_DESCRIBE(GradedRun, answers, figures, values, printed, error, seconds, lesson, began)
 DYNLAB_DESCRIBE(RunJob, script, seed, answers, time_ms, memory_bytes, recalls)

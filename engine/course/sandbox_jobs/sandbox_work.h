@@ -16,7 +16,7 @@ template <class Result>
 struct SandboxResult {
     std::optional<Result> output;  ///< what the work returned; nothing when it did not finish
     Message reason;                ///< then: "it used more than 10 s of processor time", "it crashed (signal 11)", ...
-    double seconds = 0;            ///< wall clock, box and start included
+    double seconds = 0;            ///< wall clock, including sandbox and start
     bool waited = false;           ///< the clock's limit ended it, before its processor time was used
 };
 

@@ -14,8 +14,9 @@
 
 namespace dynlab::inline course {
 
-/// Makes documents about students' work, each in a box, as their texts come from students. The layout is compiled once,
-/// outside and before any of these texts is read; the boxes only read it. Threads may share one.
+/// Makes documents about students' work, each in a sandbox, because their texts come from students. The layout is
+/// compiled once, outside the sandboxes and before any of these texts is read; the sandboxes only read it. Threads may
+/// share one object.
 class SandboxedDocuments {
   public:
     /// `program`: dynlab.
@@ -70,7 +71,7 @@ struct DocumentJob {
     std::filesystem::path to;  ///< .pdf or .md
 };
 
-/// The part of it inside the box.
+/// The part that runs inside the sandbox.
 SandboxOutcome make_sandboxed_document(const DocumentJob& job);
 
 }  // namespace dynlab::inline course

@@ -9,7 +9,7 @@
 namespace dynlab::inline course {
 
 struct SimilarityRequest {
-    Lesson lesson;                      ///< its starter counts for nothing, its worked solution is compared
+    Lesson lesson;                      ///< its starter does not count, its reference solution is compared
     std::filesystem::path submissions;  ///< a folder or a platform's zip, as ClassSubmissions takes them
     std::filesystem::path out;
     std::vector<std::filesystem::path> others;  ///< former years' submissions (folder or zip), or folders of scripts
@@ -23,8 +23,8 @@ struct SimilarityOutcome {
     std::vector<Message> complaints;                 ///< whole sentences: what could not be compared
 };
 
-/// Compares the scripts of a class with one another, the worked solution and others, and writes similarity.md and
-/// similarity.csv into `out`. Throws EnvironmentError where there are no submissions.
+/// Compares the scripts of a class with one another, with the reference solution and with other scripts, and writes
+/// similarity.md and similarity.csv into `out`. Throws EnvironmentError if there are no submissions.
 SimilarityOutcome compare_class(const SimilarityRequest& request);
 
 }  // namespace dynlab::inline course

@@ -5,7 +5,7 @@
 
 namespace dynlab::inline course {
 
-/// A script that is compared: one of the class, or what the class is held against (the worked solution, former years).
+/// A script that is compared: one of the class, or one outside the class (the reference solution, former years).
 struct ComparedScript {
     std::string name, source;
     bool of_class = true;
@@ -22,7 +22,7 @@ struct CommonPassage {
 struct SimilarPair {
     std::size_t a = 0, b = 0;  ///< places in the list; b is the one outside of the class, where one is
     double share = 0, same_lines = 0;
-    double share_of_longer = 0;           ///< as `share`, of the longer one's own fingerprints
+    double share_of_longer = 0;           ///< like `share`, of the longer script's fingerprints
     std::vector<CommonPassage> passages;  ///< the longest first, at most three
 };
 

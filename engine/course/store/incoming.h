@@ -20,8 +20,8 @@ struct IncomingFile {
     Message left_out = {};       ///< why it cannot be taken, a clause; what holds nothing is an empty file then
 };
 
-/// Everything that was given to receive: files, folders, and what Moodle or Canvas exports as one zip. Archives are
-/// unpacked in a box, except packs, which are kept as they are.
+/// All files and folders to receive, including the zip that Moodle or Canvas exports. Archives are unpacked in a
+/// sandbox, except packs, which are kept unchanged.
 class IncomingFiles {
   public:
     struct Way {

@@ -6,10 +6,10 @@
 
 namespace dynlab::inline data_io {
 
-/// CBOR (RFC 8949), for caches and boxes: every number bit by bit, NaN and infinity too, so that equal bytes are equal
-/// values. Arrays are typed arrays of RFC 8746, little-endian: tag 86, matrices in tag 1040 with their rows and
-/// columns, complex ones with a dimension of 2 (complex vectors in tag 40). Objects are maps of indefinite length,
-/// their members in the order of the description. Texts keep their bytes, UTF-8 or not.
+/// CBOR (RFC 8949), for caches and sandboxes: every number is stored bit by bit, NaN and infinity too, so that equal
+/// bytes are equal values. Arrays are typed arrays of RFC 8746, little-endian: tag 86, matrices in tag 1040 with their
+/// rows and columns, complex ones with a dimension of 2 (complex vectors in tag 40). Objects are maps of indefinite
+/// length, their members in the order of the description. Texts keep their bytes, UTF-8 or not.
 class CborWriter final : public ValueWriter {
   public:
     const std::string& bytes() const { return bytes_; }

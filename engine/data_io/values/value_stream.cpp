@@ -7,7 +7,7 @@
 namespace dynlab::inline data_io {
 namespace {
 
-/// A key as messages show it: it may be anybody's.
+/// A key for messages. The key is untrusted.
 std::string shown_key(const std::string& key) {
     constexpr std::size_t kMaxLength = 40;
     std::string shown;

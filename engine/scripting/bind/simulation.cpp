@@ -92,7 +92,7 @@ int simulate_freely(Call& call, const FreeRunModel& model, const Options& option
     return run.output.cols() == 1 ? call.give_vector(run.output.col(0)) : call.give_matrix(run.output);
 }
 
-/// By a grey box's own equations.
+/// Simulates a grey-box model by its equations.
 int simulate_grey_box(Call& call, const GreyFit& grey, const Options& options, const Vector& x0) {
     GreyInputs inputs{call.matrix(2, "u"), {}, hold_option(options, Hold::kZoh)};
     const Index N = inputs.u.rows();

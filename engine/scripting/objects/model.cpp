@@ -75,7 +75,7 @@ namespace {
                           argument_label(index, what), kind);
 }
 
-/// A grey box with linear equations, one input and one output.
+/// A grey-box model with linear equations, one input and one output.
 Model linear_grey_model(const GreyFit& grey, int index, ArgumentName what) {
     const auto system = linear_system_of(grey.model, grey.fit.theta);
     if (!system) refuse_simulated(index, what, Message("this grey-box model"));

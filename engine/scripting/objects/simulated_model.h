@@ -25,7 +25,7 @@ TypeEntries simulated_types();
 
 /// The object of an argument, nullptr for anything else.
 const SimulatedModel* simulated_model(const Call& call, int index);
-/// A model whose free run is simulated by its own equations, a grey box among them.
+/// Whether the model's free run is simulated by its own equations, as for a grey-box model.
 bool runs_freely(const Call& call, int index);
 /// Name of the method that gave the model of an argument; empty for a model that was written down.
 std::string method_of_model(const Call& call, int index);

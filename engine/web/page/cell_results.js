@@ -45,7 +45,8 @@ function output({ printed, figure: name }, kept) {
   return nodes;
 }
 
-/// `box` shows what these cells gave, in `results` of the run; `error`: the text of the one that stopped it there.
+/// Shows the results of these cells in `box`, from `results` of the run; `error`: the text of the error that stopped
+/// the run.
 export function showResults(box, cells, results, error) {
   const kept = new Map([...box.querySelectorAll("figure[data-figure]")].map((figure) => [figure.dataset.figure, figure]));
   const nodes = cells.flatMap((cell) => (results?.outputs[cell] ?? []).flatMap((piece) => output(piece, kept)));

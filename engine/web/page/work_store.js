@@ -47,8 +47,7 @@ export async function keepNote(key, name, text) {
 }
 
 const kAnswer = 150;  // ms in which another tab says that it is there
-/// Only one tab writes the work of a lesson. `onChange(writes)` is called when that changes; returns {writes, take(),
-/// `told`()}.
+/// Only one tab writes the work of a lesson. `onChange(writes)` is called when that changes; returns {writes, take()}.
 export async function oneWriter(key, onChange) {
   const line = "BroadcastChannel" in window ? new BroadcastChannel(`dynlab ${key}`) : null, me = String(Math.random());
   let writes = true, asking = true;
