@@ -65,13 +65,13 @@ TEST(figure_viewer, speaks_the_language_of_the_browser) {
     const auto state_is = [&](const std::string& pattern) {
         return browser.becomes_true("/" + pattern + "/.test(document.getElementById('state').innerText)");
     };
-    EXPECT_TRUE(state_is("^aucune encore.: tapez, par exemple, step\\(tf\\("));
+    EXPECT_TRUE(state_is("^aucune figure encore.; tapez, par exemple, step\\(tf\\("));
     EXPECT_EQ(browser.evaluate("return [document.documentElement.lang, document.getElementById('name').innerText]"),
               "[\"fr\",\"Figures\"]");
     viewer->show("figure-1.pdf", figure_titled("First"));
     EXPECT_TRUE(state_is("^1$"));
     viewer.reset();
-    EXPECT_TRUE(state_is("^dynlab est terminé.; voici ses dernières figures$"));
+    EXPECT_TRUE(state_is("^dynlab est terminé.; voici les dernières figures$"));
 }
 
 /// A page needs nothing of a language but its catalog.
