@@ -87,8 +87,8 @@ StateFeedback linear_quadratic_regulator(const MatrixView& A, const MatrixView& 
     const auto inverse = count < n ? std::nullopt : inverse_of_regular(stable.topRows(n));
     if (!inverse)
         throw InvalidArgument(
-            "the Riccati equation has no stabilizing solution: an unstable mode is not stabilizable, or a mode that "
-            "does not decay is not observable through Q");
+            "the Riccati equation has no stabilizing solution: an unstable mode is not controllable, or a mode on the "
+            "imaginary axis is not observable through Q");
     const Matrix P = scale.tail(n).asDiagonal() * (stable.bottomRows(n) * *inverse).real() *
                      scale.head(n).cwiseInverse().asDiagonal();
     return closed(A, B, cheapest->x * (P + P.transpose()) / 2);

@@ -24,7 +24,8 @@ inline constexpr OptionEntry kHoldOfOutput =
 inline constexpr std::array kFirstFilterOptions = {
     option<&FitOptions::lambda>(
         "lambda",
-        about("cutoff frequency of the filter of the initial estimate; by default, several frequencies are tried"),
+        about(
+            "cutoff frequency of the filter of the initial estimate; by default, the method tries several frequencies"),
         {.unit = "rad/s"}),
     option<&FitOptions::hold_y>(
         "hold_y", about("intersample behavior of the output in the filters; this option does not affect the result"),
@@ -47,10 +48,11 @@ inline constexpr OptionEntry kTolerance =
     option<&FitOptions::tolerance>("Tol", about("relative change of the parameters at which the search stops"),
                                    {.initial = "1e-6", .member = "tolerance"});
 inline constexpr std::array kIterationOptions = {
-    option<&FitOptions::max_iterations>("MaxIter",
-                                        about("maximum number of iterations; by default, a search that has not "
-                                              "converged continues for up to 500 iterations"),
-                                        {.least = 0, .member = "max_iterations"}),
+    option<&FitOptions::max_iterations>(
+        "MaxIter",
+        about("maximum number of iterations; if you do not specify it, a search that has not converged after 50 "
+              "iterations continues for up to 500 more iterations"),
+        {.least = 0, .member = "max_iterations"}),
     kTolerance};
 /// Of methods that end there in any case.
 inline constexpr std::array kLimitOptions = {
@@ -68,7 +70,7 @@ inline constexpr std::array kSharingOptions = {kCommonDenominator};
 
 inline constexpr OptionEntry kStableOption = option<&FitOptions::stable>(
     "Stable",
-    about("true allows only models with all poles in the left half plane; false returns the best fit regardless of its "
+    about("true allows only models with all poles in the left half-plane; false returns the best fit regardless of its "
           "poles. By default, an unstable model must decrease the loss by at least 2 %"),
     {.member = "stable"});
 inline constexpr OptionEntry kFixedOption = option<&FitOptions::fixed>(
@@ -80,14 +82,16 @@ inline constexpr std::array kSearchOptions = {
                                               "default 1/(standard deviation of the errors)"),
                                         {.member = "output_weights"})};
 
-inline constexpr std::array kDelayOptions = {
-    option<&FitOptions::least_delay>("TdMin", about("smallest delay in the search"),
-                                     {.unit = "s", .member = "least_delay"}),
-    option<&FitOptions::largest_delay>(
-        "TdMax", about("largest delay in the search, by default a bound computed from the data; 0 for no delay"),
-        {.unit = "s", .member = "largest_delay"}),
-    option<&FitOptions::delay_count>("NumTd", about("maximum number of delays on the grid of the search"),
-                                     {.member = "delay_count"})};
+/// With the description of TdMax, whose default and limits depend on the function.
+constexpr std::array<OptionEntry, 3> delay_search_options(MessageId<> largest_delay) {
+    return {option<&FitOptions::least_delay>("TdMin", about("smallest delay in the search"),
+                                             {.unit = "s", .member = "least_delay"}),
+            option<&FitOptions::largest_delay>("TdMax", largest_delay, {.unit = "s", .member = "largest_delay"}),
+            option<&FitOptions::delay_count>("NumTd", about("maximum number of delays on the grid of the search"),
+                                             {.member = "delay_count"})};
+}
+inline constexpr std::array kDelayOptions = delay_search_options(
+    about("largest delay in the search, by default a bound computed from the data; 0 for no delay"));
 /// Read by structure_of_counts().
 inline constexpr OptionEntry kKnownDelayOption = {
     "IODelay",

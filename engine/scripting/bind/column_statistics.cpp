@@ -113,9 +113,9 @@ constexpr FunctionEntry kStatisticsFunctions[] = {
      guarded<measure_columns<deviation_of, 2>>},
     {"var", "vectors", "var(v) -> x; var(A) -> w",
      "Variance of a vector, or of each column of a matrix (divisor N - 1)", guarded<measure_columns<variance_of, 2>>},
-    {"min", "vectors", "min(v) -> x, place; min(x, y) -> w",
+    {"min", "vectors", "min(v) -> smallest, place; min(x, y) -> w",
      "Smallest element and its position, or the element-wise minimum", guarded<extreme<false>>},
-    {"max", "vectors", "max(v) -> x, place; max(x, y) -> w",
+    {"max", "vectors", "max(v) -> largest, place; max(x, y) -> w",
      "Largest element and its position, or the element-wise maximum", guarded<extreme<true>>},
 };
 

@@ -56,7 +56,7 @@ constexpr FunctionEntry kComparisonsFunctions[] = {
     {"le", "vectors", "le(v, x) -> mask", "Find elements less than or equal to x",
      guarded<compare_elements<std::less_equal<double>>>},
     {"eq", "vectors", "eq(v, x) -> mask", "Find elements equal to x", guarded<compare_elements<std::equal_to<double>>>},
-    {"find", "vectors", "find(mask) -> places", "Positions of the true elements of a mask", guarded<find>},
+    {"find", "vectors", "find(mask) -> places", "Find the positions of the true elements of a mask", guarded<find>},
 };
 
 }  // namespace

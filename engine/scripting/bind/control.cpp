@@ -104,7 +104,7 @@ int drive_crane(Call& call) {
 constexpr FunctionEntry kControlFunctions[] = {
     {"lqr", "control", "lqr(A, B, Q, R) -> K, poles", "Design a linear-quadratic state feedback", guarded<lqr>,
      kNoOptions, kRegulatorArguments},
-    {"place", "control", "place(A, B, poles) -> K, poles", "Place the poles of a system with one input", guarded<place>,
+    {"place", "control", "place(A, B, poles) -> K, p", "Place the poles of a system with one input", guarded<place>,
      kNoOptions, kPlacementArguments},
     {"drive_crane", "control", "drive_crane(controller, {options}) -> table",
      "Test a controller on the simulated crane of the course", guarded<drive_crane>, kCraneTables, kCraneArguments},

@@ -335,8 +335,8 @@ int idplot(Call& call) {
 
 constexpr FunctionEntry kDataFunctions[] = {
     {"load", "data", "load(name_or_path, {options}) -> table",
-     "Load a data set of the course, a .mat file, or a table in a text file or workbook", guarded<load>, kImportTables,
-     kLoadArguments},
+     "Load a data set of the course, a .mat or .json file, or a table in a text file or workbook", guarded<load>,
+     kImportTables, kLoadArguments},
     {"iddata", "data", "iddata(y, u, Ts, {options}) -> data", "Create a data object from output and input signals",
      guarded<make_iddata>, kIddataTables, kIddataArguments},
     {"idplot", "data", "idplot(data, ..., {options}) -> fig; idplot(data, first, last)",

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 
 #include "figures/figure_text.h"
 #include "figures/gnuplot_renderer.h"
@@ -53,7 +54,22 @@ constexpr std::array kMotionOptions = {
     option<&MotionAppearance::width_cm>("width", about("width of the figure"), {.unit = "cm"}),
     option<&MotionAppearance::height_cm>("height", about("height of the figure; 0 for a height that fits the panels"),
                                          {.unit = "cm"})};
+/// The options of a panel with other defaults of x_log and y_log.
+constexpr auto panel_options_with_scales(bool log_x, bool log_y) {
+    auto options = kPanelOptions;
+    for (OptionEntry& option : options) {
+        const std::string_view name = option.name;
+        if ((log_x && name == "x_log") || (log_y && name == "y_log")) option.facts.initial = "true";
+    }
+    return options;
+}
+constexpr std::array kLogXOptions = panel_options_with_scales(true, false),
+                     kLogYOptions = panel_options_with_scales(false, true),
+                     kLogLogOptions = panel_options_with_scales(true, true);
 constexpr OptionTable kPlotTables[] = {kPanelOptions, kCurveLists, kFigureSizeOptions},
+                      kLogXTables[] = {kLogXOptions, kCurveLists, kFigureSizeOptions},
+                      kLogYTables[] = {kLogYOptions, kCurveLists, kFigureSizeOptions},
+                      kLogLogTables[] = {kLogLogOptions, kCurveLists, kFigureSizeOptions},
                       kFigureTables[] = {kPanelOptions, kFigureGridOptions, kFigureSizeOptions},
                       kMotionTables[] = {kMotionOptions};
 
@@ -328,11 +344,11 @@ constexpr FunctionEntry kFiguresFunctions[] = {
     {"plot", "figures", "plot(x, y, \"name\", ..., {options}) -> fig", "Plot curves in one panel",
      guarded<plot<false, false>>, kPlotTables, kCurvesArguments},
     {"semilogx", "figures", "semilogx(x, y, \"name\", ..., {options}) -> fig", "Plot curves with a logarithmic x-axis",
-     guarded<plot<true, false>>, kPlotTables, kCurvesArguments},
+     guarded<plot<true, false>>, kLogXTables, kCurvesArguments},
     {"semilogy", "figures", "semilogy(x, y, \"name\", ..., {options}) -> fig", "Plot curves with a logarithmic y-axis",
-     guarded<plot<false, true>>, kPlotTables, kCurvesArguments},
+     guarded<plot<false, true>>, kLogYTables, kCurvesArguments},
     {"loglog", "figures", "loglog(x, y, \"name\", ..., {options}) -> fig", "Plot curves with two logarithmic axes",
-     guarded<plot<true, true>>, kPlotTables, kCurvesArguments},
+     guarded<plot<true, true>>, kLogLogTables, kCurvesArguments},
     {"figure", "figures", "figure{options} -> fig; figure(n)",
      "Create a figure from a description, or set the number of the next figure", guarded<figure>, kFigureTables,
      kFigureNumberArguments},

@@ -30,7 +30,10 @@ constexpr OptionEntry kIdprocOptions[] = {
     {"Tp1", ValueKind::kNumber, about("first time constant"), {.unit = "s"}},
     {"Tp2", ValueKind::kNumber, about("second time constant"), {.unit = "s"}},
     {"Tp3", ValueKind::kNumber, about("third time constant"), {.unit = "s"}},
-    {"Tw", ValueKind::kNumber, about("1/w0 of the underdamped poles (U)"), {.unit = "s"}},
+    {"Tw",
+     ValueKind::kNumber,
+     about("time constant 1/w0 of the underdamped poles (U), where w0 is the natural frequency in rad/s"),
+     {.unit = "s"}},
     {"Zeta", ValueKind::kNumber, about("damping ratio of the underdamped poles (U)")},
     {"Tz", ValueKind::kNumber, about("time constant of the zero (Z)"), {.unit = "s"}},
     {"Td", ValueKind::kNumber, about("delay (D)"), {.unit = "s"}}};
@@ -58,10 +61,10 @@ constexpr ArgumentEntry
 constexpr std::array kSeriesArguments = {kEqualTimes}, kParallelArguments = {kEqualDelays};
 constexpr ArgumentEntry kFeedbackArguments[] = {
     {"forward, backward", ValueKind::kModel,
-     about("models; a number is a gain, and delays of discrete-time models become poles at zero")},
+     about("models; a number is a gain, and delays of discrete-time models become poles at z = 0")},
     {"sign", ValueKind::kNumber, about("-1 (negative feedback, the default) or 1")}};
 constexpr ArgumentEntry kPadeArguments[] = {
-    {"G", ValueKind::kModel, about("model; in discrete time, the delay is replaced exactly by poles at zero")},
+    {"G", ValueKind::kModel, about("model; in discrete time, the delay is replaced exactly by poles at z = 0")},
     {"n", ValueKind::kCount, about("number of poles, 1 to 10")}};
 constexpr ArgumentEntry kConversion = {"method", ValueKind::kChoice,
                                        about("\"zoh\" (the default), \"foh\" or \"tustin\"")};
@@ -296,17 +299,17 @@ constexpr FunctionEntry kModelsFunctions[] = {
      kNoOptions, kParallelArguments},
     {"feedback", "models", "feedback(forward, backward, sign) -> G", "Close a loop, with negative feedback by default",
      guarded<connect_feedback>, kNoOptions, kFeedbackArguments},
-    {"pade", "models", "pade(G, n) -> G",
+    {"pade", "models", "pade(G, n) -> Gp",
      "Approximate the delay of a model by a rational transfer function with n poles", guarded<replace_delay>,
      kNoOptions, kPadeArguments},
     {"c2d", "models", "c2d(G, Ts, \"zoh\" | \"foh\" | \"tustin\") -> Gd",
      "Convert a continuous-time model to discrete time", guarded<to_discrete>, kNoOptions, kDiscreteArguments},
     {"d2c", "models", "d2c(Gd, \"zoh\" | \"foh\" | \"tustin\") -> G",
      "Convert a discrete-time model to continuous time", guarded<to_continuous>, kNoOptions, kContinuousArguments},
-    {"pole", "models", "pole(G) -> complex vector", "Poles of a model", guarded<of_model<&TransferFunction::poles>>,
-     kNoOptions, kModelAlone},
-    {"zero", "models", "zero(G) -> complex vector", "Zeros of a model", guarded<of_model<&TransferFunction::zeros>>,
-     kNoOptions, kModelAlone},
+    {"pole", "models", "pole(G) -> p", "Poles of a model", guarded<of_model<&TransferFunction::poles>>, kNoOptions,
+     kModelAlone},
+    {"zero", "models", "zero(G) -> z", "Zeros of a model", guarded<of_model<&TransferFunction::zeros>>, kNoOptions,
+     kModelAlone},
     {"dcgain", "models", "dcgain(G) -> K", "Steady-state gain", guarded<of_model<&TransferFunction::dc_gain>>,
      kNoOptions, kModelAlone},
     {"damp", "models", "damp(G) -> wn, zeta, T", "Natural frequency, damping ratio and time constant of every pole",

@@ -26,7 +26,7 @@ constexpr OptionEntry kNoiseOptions[] = {
      about("true adds the noise of the model, which must be an estimated model with one output")},
     {"snr",
      ValueKind::kNumber,
-     about("signal-to-noise ratio 20 log10(std x/std v) of noise that is added to the noise-free output x"),
+     about("signal-to-noise ratio 20 log10(std(x)/std(v)) of noise v that is added to the noise-free output x"),
      {.unit = "dB"}},
     kNoiseSeed,
     kHoldOfData};

@@ -34,8 +34,8 @@ constexpr std::array kEtfeOptions = {
                                  about("number of frequencies on each side in a weighted mean; 0 for no smoothing")),
     option<&EtfeOptions::remove_mean>("remove_mean", kMeanRemoval), kConfidenceOption, kLabelsOption, kQuietEstimate};
 constexpr std::array kSpaOptions = {
-    option<&SpaOptions::window>("window",
-                                about("length of the lag window in samples; 0 for the smaller of 30 and N/10")),
+    option<&SpaOptions::window>(
+        "window", about("length of the lag window in samples; 0 for the smaller of 30 and N/10 for N samples")),
     option<&SpaOptions::w>("w", about("frequencies, at most pi/Ts; by default, 128 frequencies"), {.unit = "rad/s"}),
     option<&SpaOptions::remove_mean>("remove_mean", kMeanRemoval),
     kConfidenceOption,
@@ -47,12 +47,12 @@ constexpr std::array kImpulseestOptions = {
                                        about("regularization kernel, the prior covariance of the impulse response"),
                                        {.initial = "\"TC\"", .choices = kKernels}),
     option<&ImpulseestOptions::lags>("lags", about("length of the response in samples, as an alternative to the "
-                                                   "argument `n`; 0 for the smaller of 70 and N/5")),
+                                                   "argument `n`; 0 for the smaller of 70 and N/5 for N samples")),
     option<&ImpulseestOptions::smooth>("smooth", about("true uses regularized least squares, for a smooth and decaying "
                                                        "response, instead of ordinary least squares")),
     kReadingConfidence, kLabelsOption};
 constexpr std::array kCraOptions = {
-    option<&CraOptions::lags>("lags", about("number of lags; 0 for the smaller of 70 and N/5")),
+    option<&CraOptions::lags>("lags", about("number of lags; 0 for the smaller of 70 and N/5 for N samples")),
     option<&CraOptions::whitening>(
         "whitening", about("order of the autoregressive filter; 0 for an input that is already white"), {.most = 100}),
     kReadingConfidence, kLabelsOption};

@@ -34,16 +34,20 @@ constexpr OptionEntry kGridOptions[] = {
     {"zeros", ValueKind::kAny, about("numbers of zeros: {from, to}, or one number"), {.initial = "{0, 2}"}},
     {"delays",
      ValueKind::kAny,
-     about("delays to try, in samples, such as {0, 1, 2}, instead of an estimated delay up to `TdMax`"),
+     about("delays to try, in samples, such as {0, 1, 2}; cannot be combined with `TdMax`"),
      {.initial = "0"}},
     {"Feedthrough",
      ValueKind::kFlag,
      about("true also includes structures with as many zeros as poles"),
      {.initial = "false"}}};
+constexpr std::array kGridDelayOptions =
+    delay_search_options(about("largest delay of the search; without TdMax, the delays in `delays` are used"));
+constexpr std::array kFreeDelayOptions = delay_search_options(
+    about("largest delay of the search, greater than `TdMin`; by default, a bound computed from the data"));
 constexpr std::array kStructureOptions = {kValidate, kSearchLambda, kStableOption,
                                           kSearchThreads<&OrderSelectionOptions::threads>};
 constexpr OptionTable kOrderListTables[] = {kStructureOptions, kStartOptions, kIterationOptions, kIntegrationOptions},
-                      kOrderGridTables[] = {kGridOptions,  kDelayOptions,     kStructureOptions,
+                      kOrderGridTables[] = {kGridOptions,  kGridDelayOptions, kStructureOptions,
                                             kStartOptions, kIterationOptions, kIntegrationOptions};
 constexpr OptionEntry kArxOptions[] = {
     {"na", ValueKind::kAny, about("numbers of poles: {from, to}, or one number"), {.initial = "{1, 4}"}},
@@ -55,7 +59,7 @@ constexpr OptionEntry kDelayGridOptions[] = {
     {"poles", ValueKind::kAny, about("numbers of poles: {from, to}, or one number"), {.initial = "{1, 3}"}},
     {"zeros", ValueKind::kAny, about("numbers of zeros: {from, to}, or one number"), {.initial = "{0, 1}"}}};
 constexpr std::array kDelaySearchOptions = {kSearchLambda, kSearchThreads<&DelaySearchOptions::threads>};
-constexpr OptionTable kDelayestTables[] = {kDelayGridOptions, kDelayOptions, kDelaySearchOptions, kStartOptions,
+constexpr OptionTable kDelayestTables[] = {kDelayGridOptions, kFreeDelayOptions, kDelaySearchOptions, kStartOptions,
                                            kIterationOptions};
 
 constexpr ArgumentEntry kSingleArguments[] = {
@@ -67,10 +71,11 @@ constexpr ArgumentEntry kChoiceArguments[] = {
     {"criterion", ValueKind::kText,
      about("\"recommended\" (the default), \"RT2\", \"YIC\", \"AIC\", \"BIC\", \"FPE\", \"fit\" or "
            "\"validation\"")}};
-constexpr ArgumentEntry kArxChoiceArguments[] = {{"V", ValueKind::kAny, about("result of `arxstruc`")},
-                                                 {"criterion", ValueKind::kText,
-                                                  about("\"loss\", \"AIC\", or \"BIC\" (also called \"MDL\"); by "
-                                                        "default the loss with validation data, otherwise BIC")}};
+constexpr ArgumentEntry kArxChoiceArguments[] = {
+    {"V", ValueKind::kAny, about("result of `arxstruc`")},
+    {"criterion", ValueKind::kText,
+     about("\"loss\", \"AIC\", or \"BIC\" (also called \"MDL\"); by default \"loss\" if V contains validation losses, "
+           "otherwise \"BIC\"")}};
 
 /// {from, to} or a single number.
 std::pair<int, int> range_of(const Options& options, const char* name, std::pair<int, int> fallback) {

@@ -103,7 +103,7 @@ int rig_truth(Call& call) {
 }
 
 constexpr FunctionEntry kRigsFunctions[] = {
-    {"rig", "data", "rig(name, {options}) -> table",
+    {"rig", "data", "rig(name, {options}) -> table; rig() -> table",
      "Repeat a simulated experiment of the course; another seed changes the noise", guarded<memoized_call<plant>>,
      kPlantTables, kPlantArguments},
     {"rig_truth", "data", "rig_truth(name, {options}) -> table",

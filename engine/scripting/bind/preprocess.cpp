@@ -37,7 +37,7 @@ constexpr std::array kFillMethods = {"linear", "previous"};
 constexpr OptionEntry kFillMethod = {
     "method",
     ValueKind::kChoice,
-    about("linear interpolation between the neighbors (\"linear\", for outputs), or the sample before the gap "
+    about("linear interpolation between the adjacent samples (\"linear\", for outputs), or the sample before the gap "
           "(\"previous\", for inputs that are logged only when they change)"),
     {.initial = "\"linear\"", .choices = kFillMethods}};
 constexpr OptionEntry kGapOptions[] = {
@@ -65,7 +65,8 @@ constexpr ArgumentEntry kResampleArguments[] = {kRegularSignals,
                                                 {"up, down", ValueKind::kCount, about("whole numbers from 1 to 1000")}};
 constexpr ArgumentEntry kMergeArguments[] = {
     {"data1, ...", ValueKind::kData, about("data objects with the same channels and sampling time")}};
-constexpr ArgumentEntry kGapArguments[] = {{"x", ValueKind::kVector, about("signal")}};
+constexpr ArgumentEntry kGapArguments[] = {
+    {"x", ValueKind::kVector, about("signal with missing samples (NaN): vector or table of numbers")}};
 constexpr ArgumentEntry kOutlierArguments[] = {
     {"x", ValueKind::kAny, about("signal, or data object; for a data object, the outputs are cleaned")}};
 
@@ -153,7 +154,7 @@ int remove_outliers(Call& call) {
 }
 
 constexpr FunctionEntry kPreprocessFunctions[] = {
-    {"detrend", "data", "detrend(data, \"linear\" | \"mean\" | \"start\", {options}) -> data",
+    {"detrend", "data", "detrend(data, \"linear\" | \"mean\" | \"start\", {options}) -> result",
      "Remove the linear trend, the mean, or the level before the input changes", guarded<detrend_signals>, kTrendTables,
      kTrendArguments},
     {"idfilt", "data", "idfilt(data, {lower, upper}, {options}) -> data",
@@ -167,7 +168,8 @@ constexpr FunctionEntry kPreprocessFunctions[] = {
     {"fillmissing", "data", "fillmissing(x, {options}) -> filled, places",
      "Fill missing samples by linear interpolation or with the previous sample", guarded<fill_gaps>, kGapsTables,
      kGapArguments},
-    {"filloutliers", "data", "filloutliers(x | data, {options}) -> cleaned, places",
+    {"filloutliers", "data",
+     "filloutliers(x, {options}) -> cleaned, places; filloutliers(data, {options}) -> cleaned, count",
      "Replace outliers by linear interpolation", guarded<remove_outliers>, kOutliersTables, kOutlierArguments},
 };
 

@@ -62,7 +62,7 @@ constexpr ArgumentEntry kRegressionX = {"x", ValueKind::kVector, about("vector o
                                              about("degree of the polynomial; 1 for a line")};
 constexpr std::array kPolynomialArguments = {kRegressionX, kRegressionY, kPolynomialDegree};
 constexpr ArgumentEntry kRegressorArguments[] = {
-    {"Phi", ValueKind::kAny, about("matrix with N rows and d columns, N at least d")}, kRegressionY};
+    {"Phi", ValueKind::kAny, about("matrix with N rows and d columns, where N is at least d")}, kRegressionY};
 constexpr ArgumentEntry kForecastArguments[] = {
     {"fit", ValueKind::kAny, about("result of `polyfit_report` or `lsq`")},
     {"x", ValueKind::kAny, about("number for a polynomial, or vector of d regressors for `lsq`")},
@@ -218,8 +218,8 @@ int descend(Call& call) {
 }
 
 constexpr FunctionEntry kRegressionFunctions[] = {
-    {"polyfit", "vectors", "polyfit(x, y, degree) -> p", "Fit a polynomial by least squares, highest power first",
-     guarded<polyfit>, kNoOptions, kPolynomialArguments},
+    {"polyfit", "vectors", "polyfit(x, y, degree) -> p", "Fit a polynomial by least squares", guarded<polyfit>,
+     kNoOptions, kPolynomialArguments},
     {"lsq", "regression", "lsq(Phi, y, {options}) -> fit", "Linear least squares with standard errors and residuals",
      guarded<least_squares>, kLsqTables, kRegressorArguments},
     {"polyfit_report", "regression", "polyfit_report(x, y, degree, {options}) -> fit",
@@ -230,10 +230,10 @@ constexpr FunctionEntry kRegressionFunctions[] = {
     {"tinv", "regression", "tinv(p, degrees) -> t", "Quantile of Student's t-distribution",
      guarded<quantile_of_student>, kNoOptions, kQuantileArguments},
     {"regression_plot", "regression", "regression_plot(x, y, fit, {options}) -> fig",
-     "Plot data and a fitted polynomial with its bands", guarded<draw_regression>, kRegressionPlotTables,
-     kRegressionPlotArguments},
+     "Plot data and a fitted polynomial with its confidence and prediction bands", guarded<draw_regression>,
+     kRegressionPlotTables, kRegressionPlotArguments},
     {"gradient_descent", "regression", "gradient_descent(Phi, y, {options}) -> table",
-     "Solve a least-squares problem by steepest descent, and return the loss of every step", guarded<descend>,
+     "Solve a least-squares problem by steepest descent, and return the loss after each iteration", guarded<descend>,
      kDescentTables, kRegressorArguments},
 };
 

@@ -23,7 +23,7 @@ constexpr std::array kSaveCsvOptions = {
     option<&CsvTable::Ts>("Ts", about("sampling time to write to the file"), {.unit = "s"}),
     OptionEntry{"digits",
                 ValueKind::kCount,
-                about("number of significant digits; 17 keeps every bit"),
+                about("number of significant digits; 17 digits represent each number exactly"),
                 {.initial = "7", .least = 1, .most = 17}}};
 constexpr std::array kSaveMatOptions = {
     OptionEntry{"digits",

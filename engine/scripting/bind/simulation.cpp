@@ -32,11 +32,11 @@ constexpr std::array kSvfOptions = {
                       "zero-order hold (\"zoh\") for piecewise constant inputs"),
                 {.initial = "\"foh\"", .choices = kHolds}}};
 constexpr std::array kModelNameOptions = {
-    OptionEntry{"labels", ValueKind::kAny, about("names of the models in the legend, a list with one per model")}};
+    OptionEntry{"labels", ValueKind::kAny, about("legend labels: list with one string per model")}};
 constexpr std::array kRegionOptions = {
     OptionEntry{"confidence",
                 ValueKind::kAny,
-                about("confidence level of the regions of estimated continuous-time models; false for no regions"),
+                about("confidence level of the bands or regions of estimated continuous-time models; false for none"),
                 {.initial = "0.99"}}};
 constexpr std::array kHistogramOptions = {
     option<&HistogramOptions::bins>("bins", about("number of bins; 0 for a number based on the spread of the values")),
@@ -53,7 +53,7 @@ constexpr ArgumentEntry kOneModel = {"G", ValueKind::kModel, about("model")},
                         kDrawnModels = {"G1, G2, ...", ValueKind::kModel, about("models to plot")},
                         kDrawnFrequencies = {"w", ValueKind::kVector, about("vector of frequencies in rad/s")},
                         kDrawnInstants = {"t", ValueKind::kVector,
-                                          about("vector of instants in seconds, starting at 0")};
+                                          about("vector of nonnegative, increasing instants in seconds")};
 constexpr std::array kLsimArguments = {
     ArgumentEntry{"G", ValueKind::kModel, about("model with at least as many poles as zeros")},
     ArgumentEntry{"u", ValueKind::kVector,

@@ -29,7 +29,9 @@ constexpr OptionEntry kStudyOptions[] = {
     {"Ts", ValueKind::kNumber, about("sampling time"), {.unit = "s"}},
     option<&MonteCarloStudy::hold>("hold", kHoldOption.description, {.initial = "\"zoh\"", .choices = kHolds}),
     option<&MonteCarloStudy::sigma>("sigma", about("standard deviation of the noise"), {.least = 0}),
-    option<&MonteCarloStudy::snr>("snr", about("signal-to-noise ratio 20 log10(std x/std noise), instead of `sigma`"),
+    option<&MonteCarloStudy::snr>("snr",
+                                  about("signal-to-noise ratio 20 log10(std(x)/std(noise)), where x is the output "
+                                        "without noise; instead of `sigma`"),
                                   {.unit = "dB"}),
     option<&MonteCarloStudy::runs>("runs", about("number of repeated experiments"), {.least = 2}),
     option<&MonteCarloStudy::seed>(

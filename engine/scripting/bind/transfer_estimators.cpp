@@ -34,13 +34,15 @@ constexpr OptionTable kTransferFunction[] = {kFirstFilterOptions, kStartOptions,
                                              kDelayOptions,       kKnownDelayOptions, kIntegrationOptions,
                                              kSharingOptions,     kSearchOptions};
 
-constexpr std::array kFilteredArguments = {
-    kDataArgument,
-    ArgumentEntry{"orders", ValueKind::kOrders,
-                  about("na poles, nb coefficients of B (at most na + 1), and an input delay of nk samples. With "
-                        "several inputs, nb and nk are tables with one entry per input; with several outputs, the "
-                        "tables have one entry per channel")},
-    kFilterFrequency};
+constexpr ArgumentEntry kFilteredOrders = {
+    "orders", ValueKind::kOrders,
+    about("na poles, nb coefficients of B (at most na + 1), and an input delay of nk samples. With "
+          "several inputs, nb and nk are tables with one entry per input; with several outputs, the "
+          "tables have one entry per channel")};
+constexpr std::array kFilteredArguments = {kDataArgument, kFilteredOrders, kFilterFrequency};
+constexpr std::array kFilteredSignalArguments = {
+    ArgumentEntry{"data", ValueKind::kData, about("data object with one or several inputs, outputs and experiments")},
+    kFilteredOrders, kFilterFrequency};
 constexpr std::array kRefinedArguments = {
     kDataArgument,
     ArgumentEntry{"orders", ValueKind::kOrders,
@@ -163,24 +165,24 @@ constexpr FunctionEntry kTransferEstimatorsFunctions[] = {
      guarded<estimate_by_least_squares>, kFiltered, kFilteredArguments},
     {"ivsvf", "continuous time", "ivsvf(data, {na, nb, nk}, lambda, {options}) -> G",
      marked("estimator", "Estimate A y = B u + e by instrumental variables, without the bias of lssvf"),
-     guarded<estimate_filtered<ivsvf, true, false>>, kFiltered, kFilteredArguments},
+     guarded<estimate_filtered<ivsvf, true, false>>, kFiltered, kFilteredSignalArguments},
     {"lsgpmf", "continuous time", "lsgpmf(data, {na, nb, nk}, lambda, {options}) -> G",
      marked("estimator", "Estimate A y = B u + e by least squares on Poisson moment functionals"),
-     guarded<estimate_filtered<lssvf, false, true>>, kMoments, kFilteredArguments},
+     guarded<estimate_filtered<lssvf, false, true>>, kMoments, kFilteredSignalArguments},
     {"ivgpmf", "continuous time", "ivgpmf(data, {na, nb, nk}, lambda, {options}) -> G",
      marked("estimator", "Estimate A y = B u + e by instrumental variables on Poisson moment functionals"),
-     guarded<estimate_filtered<ivsvf, true, true>>, kMoments, kFilteredArguments},
+     guarded<estimate_filtered<ivsvf, true, true>>, kMoments, kFilteredSignalArguments},
     {"srivc", "continuous time", "srivc(data, {nb, nf, nk}, {options}) -> G",
      marked("estimator", "Estimate y = B/F u + e by refined instrumental variables"),
      guarded<memoized_call<estimate_refined<read_refined<srivc>>>>, kRefined, kRefinedArguments},
     {"coe", "continuous time", "coe(data, {nb, nf, nk}, {options}) -> G",
      marked("estimator", "Estimate y = B/F u + e by minimizing the simulation error"),
      guarded<memoized_call<estimate_refined<read_refined<coe>>>>, kRefined, kRefinedArguments},
-    {"tfsrivc", "continuous time", "tfsrivc(data, np, nz, {options}) -> G",
+    {"tfsrivc", "continuous time", "tfsrivc(data, np, nz, {options}) -> G; tfsrivc(data, G0, {options}) -> G",
      marked("estimator", "Estimate a transfer function with delay by refined instrumental variables"),
      guarded<memoized_call<estimate_refined<read_transfer_function<srivc>>>>, kTransferFunction,
      kTransferFunctionArguments},
-    {"tfcoe", "continuous time", "tfcoe(data, np, nz, {options}) -> G",
+    {"tfcoe", "continuous time", "tfcoe(data, np, nz, {options}) -> G; tfcoe(data, G0, {options}) -> G",
      marked("estimator", "Estimate a transfer function with delay by the output-error method"),
      guarded<memoized_call<estimate_refined<read_transfer_function<coe>>>>, kTransferFunction,
      kTransferFunctionArguments},

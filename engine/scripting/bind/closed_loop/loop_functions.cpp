@@ -46,9 +46,9 @@ constexpr OptionTable kLoopOutput[] = {kLoopOptions, kRouteOptions, kLoopOutputF
 
 constexpr std::array kSimloopArguments = {
     ArgumentEntry{"G", ValueKind::kModel, about("continuous-time model of the plant")},
-    ArgumentEntry{
-        "C", ValueKind::kModel,
-        about("discrete-time controller with the sampling time Ts, or continuous-time controller; a number is a gain")},
+    ArgumentEntry{"C", ValueKind::kModel,
+                  about("discrete-time controller with the sampling time Ts, or continuous-time controller; a number "
+                        "is a continuous-time gain")},
     ArgumentEntry{"r", ValueKind::kVector, about("N samples of the reference")},
     ArgumentEntry{"Ts", ValueKind::kNumber, about("sampling time in seconds")}};
 constexpr ArgumentEntry kLoopData = {

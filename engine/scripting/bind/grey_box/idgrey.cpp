@@ -24,9 +24,9 @@ constexpr std::array kIdgreyOptions = {
                 about("initial state: for each state a number, the name of a parameter or \"estimate\"; one such value "
                       "for all states; or function(p) that returns a table"),
                 {.initial = "0"}},
-    OptionEntry{
-        "inputs", ValueKind::kCount,
-        about("number of inputs, required if the function is not symbolic and does not have exactly one input")}};
+    OptionEntry{"inputs", ValueKind::kCount,
+                about("number of inputs; required if the function is not symbolic and the model does not have exactly "
+                      "one input")}};
 constexpr OptionTable kIdgrey[] = {kIdgreyOptions};
 constexpr std::array kIdgreyArguments = {
     ArgumentEntry{

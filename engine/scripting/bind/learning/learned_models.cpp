@@ -36,10 +36,11 @@ constexpr std::array kSindyOptions = {
                 ValueKind::kCount,
                 about("maximum number of factors in a product of states and inputs; only without a library"),
                 {.initial = "2", .member = "degree"}},
-    option<&SindyOptions::threshold>("threshold",
-                                     about("threshold as a fraction of the rate, at least 0 and less than 1; functions "
-                                           "with a smaller root-mean-square contribution are removed"),
-                                     {.member = "threshold"}),
+    option<&SindyOptions::threshold>(
+        "threshold",
+        about("threshold as a fraction of the root mean square of the derivative of the state, at least 0 and less "
+              "than 1; functions with a smaller root-mean-square contribution are removed"),
+        {.member = "threshold"}),
     option<&SindyOptions::weak>("weak",
                                 about("true uses the weak form: integrals with smooth test functions, which average "
                                       "the noise, instead of derivatives"),

@@ -23,7 +23,7 @@ constexpr std::array kRecursiveOutputOrders = {kNb, kNf, kNk};
 
 constexpr std::array kRecursiveOptions = {
     option<&RecursiveOptions::forgetting>(
-        "forgetting", about("forgetting factor, by which the weight of a sample decreases with each later sample; "
+        "forgetting", about("forgetting factor, which multiplies the weights of all past samples at each new sample; "
                             "greater than 0 and at most 1; 1 for no forgetting")),
     OptionEntry{"drift", ValueKind::kVector,
                 about("variances of the random steps of the parameters from one sample to the next, one number for all "
