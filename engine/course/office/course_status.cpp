@@ -267,7 +267,8 @@ class Status {
                 return p.reviewer == id &&
                        kindred_.contains(std::pair(std::min(p.reviewer, p.author), std::max(p.reviewer, p.author)));
             }))
-            things.push_back({"kin", "review", "", "reviews a report of a present or former member: review assign"});
+            things.push_back(
+                {"kin", "review", "", "reviews a report by a current or former group member: review assign"});
         if (is_held(course_, assignment_, id, {})) things.push_back({"held", "first", "", "its report is withheld"});
         if (any_pair([id](const ReviewPair& p) { return p.author == id && p.newer_report; }) &&
             !is_held(course_, assignment_, id, {}))
