@@ -48,11 +48,10 @@ inline constexpr OptionEntry kTolerance =
     option<&FitOptions::tolerance>("Tol", about("relative change of the parameters at which the search stops"),
                                    {.initial = "1e-6", .member = "tolerance"});
 inline constexpr std::array kIterationOptions = {
-    option<&FitOptions::max_iterations>(
-        "MaxIter",
-        about("maximum number of iterations; if you do not specify it, a search that has not converged after 50 "
-              "iterations continues for up to 500 more iterations"),
-        {.least = 0, .member = "max_iterations"}),
+    option<&FitOptions::max_iterations>("MaxIter",
+                                        about("maximum number of iterations. By default, a search that has not "
+                                              "converged after 50 iterations continues for up to 500 more iterations"),
+                                        {.least = 0, .member = "max_iterations"}),
     kTolerance};
 /// Of methods that end there in any case.
 inline constexpr std::array kLimitOptions = {

@@ -39,7 +39,7 @@ constexpr std::array kSindyOptions = {
     option<&SindyOptions::threshold>(
         "threshold",
         about("threshold as a fraction of the root mean square of the derivative of the state, at least 0 and less "
-              "than 1; functions with a smaller root-mean-square contribution are removed"),
+              "than 1. Functions with a smaller root-mean-square contribution are removed"),
         {.member = "threshold"}),
     option<&SindyOptions::weak>("weak",
                                 about("true uses the weak form: integrals with smooth test functions, which average "
