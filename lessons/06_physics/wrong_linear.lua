@@ -2,7 +2,7 @@
 -- expects: crane_fit: A linear model reaches this fit
 -- expects: tanks: without its rim at 20 cm
 -- expects: free_run: lsim starts from rest
--- expects: simulated: Score
+-- expects: simulated: The score is
 -- expects: crane_follows: On a data set that you have not seen
 -- expects: tanks_follow: On a data set that you have not seen
 -- The model assumes small swings and no dry friction, the tanks have no rims, and the linear model has no offset.

@@ -55,7 +55,10 @@ def interrupt_busy(manager, client):
 
 def interrupt_idle(manager, client):
     for i in range(20):
-        manager.interrupt_kernel()
+        # The control channel and the shell channel have no common order: without waiting for the reply, the interrupt may
+        # arrive after the cell.
+        client.control_channel.send(client.session.msg("interrupt_request", {}))
+        assert client.get_control_msg(timeout=30)["content"]["status"] == "ok"
         reply, shown = run(client, f"print({i})")
         assert reply["status"] == "ok" and text_of(shown) == f"{i}\n", (i, reply, shown)
 
