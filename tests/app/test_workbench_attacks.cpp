@@ -225,7 +225,7 @@ TEST_F(workbench_attacks, what_is_refused_is_reported_in_the_script_s_language) 
     refuses("english.lua", "This script is not allowed to run yet. Allow it on the page.",
             "unknown function or variable", "A report cannot be created from a script with an error: ");
     write("french.lua", "-- ---\n-- language: fr\n-- ---\n\n" + mistake);
-    refuses("french.lua", "Ce script n'a pas encore le droit d'être exécuté.", "ni fonction ni variable",
+    refuses("french.lua", "Ce script n'a pas encore le droit d'être exécuté\u202f: donnez-le-lui sur la page.", "ni fonction ni variable",
             "Il n'y a pas de rapport d'un script qui contient une erreur");
 }
 
