@@ -120,9 +120,9 @@ namespace {
 /// scripts/start of the source tree that `dynlab` was built from, where that is known and still there.
 std::optional<std::filesystem::path> build_script(const std::filesystem::path& dynlab) {
     std::filesystem::path source;
-    if (std::ifstream recorded(source_record(dynlab)); recorded) {
+    if (std::ifstream location(source_location_file(dynlab)); location) {
         std::string line;
-        std::getline(recorded, line);
+        std::getline(location, line);
         source = line;
     } else {
         for (source = dynlab.parent_path(); source.has_relative_path(); source = source.parent_path())

@@ -80,21 +80,21 @@ std::vector<std::string> course_files(const fs::path& data_set) {
 }
 
 /// What `Package: NAME FILE SAMPLES samples TS s` says, if an installed data set has that line.
-std::optional<PackagedRecord> packaged_record(const fs::path& data_set) {
+std::optional<PackagedData> packaged_data(const fs::path& data_set) {
     if (!is_installed_data(data_set)) return std::nullopt;
     std::istringstream words(fmt::format("{}", fmt::join(words_after(kPackageKey, data_set), " ")));
-    PackagedRecord record;
+    PackagedData packaged;
     std::string file, unit;
-    words >> record.package >> file >> record.samples >> unit >> record.Ts;
-    if (!words || record.samples < 1) return std::nullopt;
-    record.file = file;
-    return record;
+    words >> packaged.package >> file >> packaged.samples >> unit >> packaged.Ts;
+    if (!words || packaged.samples < 1) return std::nullopt;
+    packaged.file = file;
+    return packaged;
 }
 
 /// A file of variables, or a data set of a package.
 struct Source {
     fs::path file;
-    std::optional<PackagedRecord> record = {};
+    std::optional<PackagedData> packaged = {};
 };
 
 /// The file of a data set to read; nothing when it has none.
@@ -106,7 +106,7 @@ std::optional<Source> source_of(const fs::path& data_set) {
     candidates.push_back(data_set / (name + ".mat"));
     const auto found = std::find_if(candidates.begin(), candidates.end(), is_file);
     if (found != candidates.end()) return Source{*found};
-    if (const auto record = packaged_record(data_set)) return Source{record->file, record};
+    if (const auto packaged = packaged_data(data_set)) return Source{packaged->file, packaged};
     return std::nullopt;
 }
 
@@ -203,11 +203,11 @@ bool is_refusal_outside(const Message& message) {
 
 LoadedData load_data(const std::string& name_or_path, const fs::path& script_folder, bool graded,
                      const ImportOptions& options) {
-    const auto [file, record] =
+    const auto [file, packaged] =
         graded ? find_graded_source(name_or_path, script_folder) : find_source(name_or_path, script_folder);
-    if (!record) return read_data_file(file, !is_installed_data(file), options);
+    if (!packaged) return read_data_file(file, !is_installed_data(file), options);
     LoadedData data;
-    data.variables = read_packaged_record(*record);
+    data.variables = read_packaged_data(*packaged);
     data.file = file;
     return data;
 }
@@ -222,8 +222,8 @@ std::vector<std::string> dataset_names() {
 
 std::optional<std::string> missing_package(const std::string& name) {
     const auto source = source_of(shared_folder() / "data" / name);
-    if (!source || !source->record || is_file(source->file)) return std::nullopt;
-    return source->record->package;
+    if (!source || !source->packaged || is_file(source->file)) return std::nullopt;
+    return source->packaged->package;
 }
 
 }  // namespace dynlab::inline data_io

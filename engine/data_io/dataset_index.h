@@ -16,7 +16,7 @@ namespace dynlab::inline data_io {
 /// such names; they are names of files in that folder, never paths. The search order is `script_folder` (NAME.mat,
 /// NAME.csv, data/NAME), then data/NAME of the current folder, then the installed data. Within a data set's folder a
 /// course's original file is preferred, then NAME.csv (which states units), then NAME.mat, then the file of a Debian
-/// package (packaged_record.h) according to a line `Package: NAME FILE SAMPLES samples TS s` of SOURCE.md, which is
+/// package (packaged_data.h) according to a line `Package: NAME FILE SAMPLES samples TS s` of SOURCE.md, which is
 /// valid in the installed data only. `graded`: data sets of the installed data win over files next to the script, also
 /// if a path below data/ names them, and a link that leads out of `script_folder` is refused. Files of the installed
 /// data are read without guard. Throws EnvironmentError that lists the existing names and suggests the nearest one.

@@ -17,40 +17,40 @@ bool is_there(const fs::path& file) {
     return fs::exists(file, error);
 }
 
-[[noreturn]] void refuse_missing(const PackagedRecord& record) {
-    if (is_there(fs::path("/var/lib/dpkg/info") / (record.package + ".list")))
+[[noreturn]] void refuse_missing(const PackagedData& packaged) {
+    if (is_there(fs::path("/var/lib/dpkg/info") / (packaged.package + ".list")))
         throw EnvironmentError(
             "the package {} is installed, but its file {} is missing: this system excludes documentation (see "
             "/etc/dpkg/dpkg.cfg.d). Include the file there, then run sudo apt-get install --reinstall {}",
-            record.package, record.file.string(), record.package);
+            packaged.package, packaged.file.string(), packaged.package);
     throw EnvironmentError(
         "this data set is part of the Debian package {}, which is not installed: run sudo apt-get install {}",
-        record.package, record.package);
+        packaged.package, packaged.package);
 }
 
 /// Reads as many numbers as the data set has samples; `what` names them in messages.
-Vector next_values(std::istream& text, const PackagedRecord& record, const Message& what) {
-    Vector values(record.samples);
-    for (Index k = 0; k < record.samples; ++k)
+Vector next_values(std::istream& text, const PackagedData& packaged, const Message& what) {
+    Vector values(packaged.samples);
+    for (Index k = 0; k < packaged.samples; ++k)
         if (!(text >> values[k]))
             throw EnvironmentError("{} ends early or contains text at {} sample {} of {}: reinstall the package {}",
-                                   record.file.string(), what, k + 1, record.samples, record.package);
+                                   packaged.file.string(), what, k + 1, packaged.samples, packaged.package);
     return values;
 }
 
 }  // namespace
 
-VariableTable read_packaged_record(const PackagedRecord& record) {
-    if (!is_there(record.file)) refuse_missing(record);
-    std::ifstream packed(record.file, std::ios::binary);
+VariableTable read_packaged_data(const PackagedData& packaged) {
+    if (!is_there(packaged.file)) refuse_missing(packaged);
+    std::ifstream packed(packaged.file, std::ios::binary);
     boost::iostreams::filtering_istream text;
     text.push(boost::iostreams::gzip_decompressor());
     text.push(packed);
     for (int line = 0; line < 2; ++line) text.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
     VariableTable variables;
-    variables["u"] = {next_values(text, record, Message("input"))};
-    variables["y"] = {next_values(text, record, Message("output"))};
-    variables["Ts"] = {record.Ts};
+    variables["u"] = {next_values(text, packaged, Message("input"))};
+    variables["y"] = {next_values(text, packaged, Message("output"))};
+    variables["Ts"] = {packaged.Ts};
     return variables;
 }
 

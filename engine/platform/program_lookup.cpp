@@ -66,7 +66,7 @@ fs::path running_program() {
     return file;
 }
 
-fs::path source_record(const fs::path& dynlab) {
+fs::path source_location_file(const fs::path& dynlab) {
     return dynlab.parent_path().parent_path() / "share/dynlab/source";
 }
 

@@ -19,7 +19,7 @@ std::filesystem::path running_program();
 
 /// The file in which scripts/start notes the source tree from which the installed `dynlab` was built:
 /// <prefix>/share/dynlab/source.
-std::filesystem::path source_record(const std::filesystem::path& dynlab);
+std::filesystem::path source_location_file(const std::filesystem::path& dynlab);
 
 /// Those of dynlab's programs that are there, in the order above, `dynlab` being the file of the first.
 std::vector<std::filesystem::path> programs_next_to(const std::filesystem::path& dynlab);

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRecords = "/records";
+const fs::path kDataFolder = "/records";
 constexpr std::int64_t kCheckTime = 20000;  // ms of one check
 
 /// One check, in the words of the page's language.
@@ -40,24 +40,26 @@ struct CheckedNews {
 DYNLAB_DESCRIBE(CheckedNews, kind, checks, trouble)
 
 /// While it lives, a data set is another one.
-class OtherRecord {
+class ReplacedDataSet {
   public:
-    OtherRecord(const std::string& data_set, const fs::path& record)
-        : place_(shared_folder() / "data" / data_set), record_(record), aside_(kRecords / "aside" / data_set) {
+    ReplacedDataSet(const std::string& data_set, const fs::path& replacement)
+        : place_(shared_folder() / "data" / data_set),
+          replacement_(replacement),
+          aside_(kDataFolder / "aside" / data_set) {
         fs::create_directories(aside_.parent_path());
         if (fs::exists(place_)) fs::rename(place_, aside_);
-        fs::rename(record_, place_);
+        fs::rename(replacement_, place_);
     }
-    ~OtherRecord() {
+    ~ReplacedDataSet() {
         std::error_code error;
-        fs::rename(place_, record_, error);
+        fs::rename(place_, replacement_, error);
         if (fs::exists(aside_)) fs::rename(aside_, place_, error);
     }
-    OtherRecord(const OtherRecord&) = delete;
-    OtherRecord& operator=(const OtherRecord&) = delete;
+    ReplacedDataSet(const ReplacedDataSet&) = delete;
+    ReplacedDataSet& operator=(const ReplacedDataSet&) = delete;
 
   private:
-    fs::path place_, record_, aside_;
+    fs::path place_, replacement_, aside_;
 };
 
 /// The submission and the data sets that its checks use.
@@ -65,9 +67,9 @@ class CheckedWork {
   public:
     explicit CheckedWork(const ChecksOrder& order)
         : order_(order), script_(parse_percent_script(order.source, order.file)) {
-        fs::remove_all(kRecords);
+        fs::remove_all(kDataFolder);
         job_.files = {{"checks.lua", order.checks, true}};
-        job_.hidden_folder = kRecords / kHiddenRecords;
+        job_.hidden_folder = kDataFolder / kHiddenDataSets;
         job_.time_ms = kCheckTime;
         job_.clock_multiple = 5;
         submission_.work.source = order.source;
@@ -78,7 +80,7 @@ class CheckedWork {
         ReadChecks read(job_, nullptr);
         if (read.error()) throw EnvironmentError(*read.error());
         const CheckResults listed = read.listed({});
-        make_records(read, listed);
+        make_data_sets(read, listed);
         std::set<std::string> runs = {kMainRun};
         for (const EvaluatedCheck& one : listed.checks)
             if (!one.check.rerun.empty()) runs.insert(one.check.rerun);
@@ -98,35 +100,35 @@ class CheckedWork {
 
     /// The folder of a hidden data set, or of that of a rerun.
     fs::path place_of(const std::string& data_set, const std::string& run) const {
-        return run == kHiddenRecords ? job_.hidden_folder : kRecords / data_set;
+        return run == kHiddenDataSets ? job_.hidden_folder : kDataFolder / data_set;
     }
 
     /// Creates hidden data sets of the plants that the checks mention, and data sets of reruns.
-    void make_records(ReadChecks& read, const CheckResults& listed) {
+    void make_data_sets(ReadChecks& read, const CheckResults& listed) {
         std::set<std::string> reruns;
         for (const EvaluatedCheck& one : listed.checks)
             if (!one.check.rerun.empty() && one.check.rerun != kOtherSeedRun) reruns.insert(one.check.rerun);
         for (const std::string& rerun : reruns) {
-            fs::create_directories(kRecords / rerun);
-            write_file_atomically(kRecords / rerun / "SOURCE.md", "A record.\n");
+            fs::create_directories(kDataFolder / rerun);
+            write_file_atomically(kDataFolder / rerun / "SOURCE.md", "A record.\n");
         }
         for (const Plant& plant : plant_catalog()) {
             if (order_.checks.find(plant.name) == std::string::npos) continue;
-            for (const std::string& run : {std::string(kHiddenRecords), plant.name}) {
-                if (run != kHiddenRecords && !reruns.contains(run)) continue;
+            for (const std::string& run : {std::string(kHiddenDataSets), plant.name}) {
+                if (run != kHiddenDataSets && !reruns.contains(run)) continue;
                 const PlantChoice choice{.specimen = drawn(plant.name), .seed = drawn(noise_of(plant.name, run))};
                 submission_.specimens[run][plant.name] = choice.specimen;
                 write_variant_data(plant.name, choice, place_of(plant.name, run));
             }
         }
         for (const std::string& plant : listed.rigs) {
-            for (const std::string& run : {std::string(kHiddenRecords), plant}) {
-                if (run != kHiddenRecords && !reruns.contains(run)) continue;
+            for (const std::string& run : {std::string(kHiddenDataSets), plant}) {
+                if (run != kHiddenDataSets && !reruns.contains(run)) continue;
                 const std::uint32_t specimen = drawn(plant);
                 const CheckResults made = read.listed({{plant, specimen, drawn(noise_of(plant, run))}});
                 if (made.error) throw EnvironmentError(*made.error);
                 VariableTable variables;
-                for (const auto& [name, values] : made.records.at(0))
+                for (const auto& [name, values] : made.data_sets.at(0))
                     variables[name] = {
                         Vector(Eigen::Map<const Vector>(values.data(), static_cast<Index>(values.size())))};
                 write_mat_file(place_of(plant, run) / (plant + ".mat"), variables);
@@ -136,13 +138,13 @@ class CheckedWork {
     }
 
     GradedRun run_on(const std::string& name) {
-        std::optional<OtherRecord> record;
-        if (name != kMainRun && name != kOtherSeedRun) record.emplace(name, kRecords / name);
+        std::optional<ReplacedDataSet> replacement;
+        if (name != kMainRun && name != kOtherSeedRun) replacement.emplace(name, kDataFolder / name);
         ReportLanguage language{script_.header.language};
         RunOptions options;
         options.seed = name == kOtherSeedRun ? drawn("seed") : script_.header.seed;
         options.script_folder = script_.file.parent_path();
-        options.out_folder = kRecords / "out";
+        options.out_folder = kDataFolder / "out";
         options.memory_limit_bytes = std::size_t{512} << 20;
         options.graded = true;
         GnuplotRenderer renderer;

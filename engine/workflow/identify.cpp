@@ -215,8 +215,8 @@ void IdentifyRequest::validate() const {
 std::string identification_script(const IdentifyRequest& request) {
     using namespace fmt::literals;
     request.validate();
-    Recording record(request.data, request.inputs, request.outputs, request.Ts, request.time, request.time_unit);
-    record.set_inter_sample(request.moving_input);
+    Recording data_set(request.data, request.inputs, request.outputs, request.Ts, request.time, request.time_unit);
+    data_set.set_inter_sample(request.moving_input);
     std::optional<Recording> unseen;
     if (!request.validation.empty())
         unseen.emplace(request.validation, request.inputs, request.outputs, request.Ts, request.time,
@@ -224,12 +224,12 @@ std::string identification_script(const IdentifyRequest& request) {
     if (unseen) unseen->set_inter_sample(request.moving_input);
 
     std::string script =
-        fmt::format(kBegin, "load"_a = record.loading("record") + (unseen ? unseen->loading("validation") : ""),
+        fmt::format(kBegin, "load"_a = data_set.loading("record") + (unseen ? unseen->loading("validation") : ""),
                     "inputs"_a = reported_inputs(request.inputs), "file"_a = lua_text(request.data));
     for (std::size_t i = 0; i < request.outputs.size(); ++i) {
         const std::string& output = request.outputs[i];
         const std::string suffix = request.outputs.size() == 1 ? "" : fmt::format("_{}", i + 1);
-        script += fmt::format(kData, "s"_a = suffix, "data"_a = record.data("record", {output}),
+        script += fmt::format(kData, "s"_a = suffix, "data"_a = data_set.data("record", {output}),
                               "output"_a = lua_text(output));
         if (!request.poles) script += search_of(request, suffix);
         script += fmt::format(kModel, "s"_a = suffix, "structure"_a = structure_of(request),

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kStoredDigits = 7;
 constexpr std::string_view kVariantKey = "Specimen:";
-constexpr char kOwnRecord[] = R"(
+constexpr char kOwnData[] = R"(
 **Your group's own data set.** It was generated as described above, but for another unit of the plant, which has
 different parameters, and with different noise. `rig("{name}", {{specimen = {seed}, seed = {seed}}})` generates it
 again, and `rig_truth("{name}", {{specimen = {seed}}})` returns the true values.
@@ -27,7 +27,7 @@ again, and `rig_truth("{name}", {{specimen = {seed}}})` returns the true values.
 )";
 
 /// The data in the form in which load() returns a MAT file: experiments as structs of vectors.
-VariableTable variables_of_record(const PlantValues& record);
+VariableTable variables_of_data(const PlantValues& simulated_data);
 
 /// What each kind of value is in a data file.
 struct AsVariable {
@@ -37,13 +37,13 @@ struct AsVariable {
         throw InvalidArgument("a data set must contain signals, not models");
     }
     Variable operator()(const PlantValues& value) const {
-        return {std::make_shared<VariableTable>(variables_of_record(value))};
+        return {std::make_shared<VariableTable>(variables_of_data(value))};
     }
 };
 
-VariableTable variables_of_record(const PlantValues& record) {
+VariableTable variables_of_data(const PlantValues& simulated_data) {
     VariableTable variables;
-    for (const PlantValue& value : record) variables[value.name] = std::visit(AsVariable(), value.value);
+    for (const PlantValue& value : simulated_data) variables[value.name] = std::visit(AsVariable(), value.value);
     return variables;
 }
 
@@ -52,7 +52,7 @@ VariableTable variables_of_record(const PlantValues& record) {
 void write_variant_data(const std::string& data_set, const PlantChoice& choice, const fs::path& folder) {
     const Plant* plant = find_plant(data_set);
     if (!plant) throw InvalidArgument("no simulated plant generates the data set '{}'", data_set);
-    write_mat_file(folder / (data_set + ".mat"), variables_of_record(plant->record(choice)), kStoredDigits);
+    write_mat_file(folder / (data_set + ".mat"), variables_of_data(plant->simulated_data(choice)), kStoredDigits);
 }
 
 void write_group_data(const std::vector<std::string>& data_sets, std::uint32_t group_seed, const fs::path& folder) {
@@ -60,7 +60,7 @@ void write_group_data(const std::vector<std::string>& data_sets, std::uint32_t g
         fs::create_directories(folder / name);
         const std::string source = read_text(shared_folder() / "data" / name / kSourceFile);
         const std::string own =
-            fmt::format(kOwnRecord, fmt::arg("name", name), fmt::arg("seed", group_seed), fmt::arg("key", kVariantKey));
+            fmt::format(kOwnData, fmt::arg("name", name), fmt::arg("seed", group_seed), fmt::arg("key", kVariantKey));
         write_file_atomically(folder / name / kSourceFile, source + own);
         write_variant_data(name, {.specimen = group_seed, .seed = group_seed}, folder / name);
     }

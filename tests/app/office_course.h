@@ -82,8 +82,7 @@ class OfficeCourse {
                 "the\n-- least-squares solution?\n--\n" +
                     answer(i) + "\n\n-- %% id=q4\nprint(" + std::to_string(i) + ")\n",
                 "2026-03-01 11:00");
-            record_result(*course_, {version, {{"q3", 4, 0, false}, {"gain", 6, 5, true}}, "f"},
-                          at("2026-03-02 12:00"));
+            save_result(*course_, {version, {{"q3", 4, 0, false}, {"gain", 6, 5, true}}, "f"}, at("2026-03-02 12:00"));
         }
         transaction.commit();
         return lab;
@@ -132,7 +131,7 @@ class OfficeCourse {
         version.stage = pair ? "review" : "first", version.pair = pair;
         version.name = part == "script" ? "analysis.lua" : part + ".pdf";
         version.bytes = std::ssize(text), version.at = at(time);
-        course_->record_file(version.hash, version.bytes, version.at);
+        course_->register_file(version.hash, version.bytes, version.at);
         return add_version(*course_, a, version, version.at).id;
     }
 

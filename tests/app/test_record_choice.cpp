@@ -34,15 +34,15 @@ TEST_F(record_choice, orders_that_are_no_records_are_refused) {
     write("plant.csv", "# Ts: 0.1\nu,y\n1,2\n0,3\n1,2\n");
     const std::filesystem::path before = std::filesystem::current_path();
     std::filesystem::current_path(folder.path());
-    const RecordOrder good = suggested_order(summarize_record("plant.csv"));
-    EXPECT_THAT(record_lines(good), HasSubstr("data = iddata(data_file.y, data_file.u, "));
-    RecordOrder code = good, word = good, without_input = good, without_output = good;
+    const DataSelection good = suggested_order(describe_data("plant.csv"));
+    EXPECT_THAT(loading_lines(good), HasSubstr("data = iddata(data_file.y, data_file.u, "));
+    DataSelection code = good, word = good, without_input = good, without_output = good;
     word.name = "end";
     code.name = "x = 1\nfoo()\nz";
     without_input.inputs.clear();
     without_output.outputs.clear();
-    for (const RecordOrder& order : {code, word, without_input, without_output})
-        EXPECT_THROW(record_lines(order), EnvironmentError);
+    for (const DataSelection& order : {code, word, without_input, without_output})
+        EXPECT_THROW(loading_lines(order), EnvironmentError);
     std::filesystem::current_path(before);
 }
 
@@ -50,7 +50,7 @@ TEST_F(record_choice, orders_that_are_no_records_are_refused) {
 TEST_F(record_choice, all_channels_of_one_experiment_are_offered) {
     const auto channels = [&](const std::string& head) {
         write("plant.csv", "# Ts: 0.1\n" + head + "\n1,2,5,3,4,6\n0,3,4,7,5,3\n1,2,6,4,8,4\n");
-        const RecordOrder order = suggested_order(summarize_record(file("plant.csv").string(), false));
+        const DataSelection order = suggested_order(describe_data(file("plant.csv").string(), false));
         return std::pair(order.inputs, order.outputs);
     };
     using Names = std::vector<std::string>;
@@ -61,19 +61,19 @@ TEST_F(record_choice, all_channels_of_one_experiment_are_offered) {
 
 /// Experiments in structs. The same data set replaces its cell; another data set follows it.
 TEST_F(record_choice, a_record_takes_the_place_of_itself) {
-    const RecordOrder order{"crane", {"estimation.u"},       {"estimation.theta", "estimation.x"}, "estimation.t", 0,
-                            "data",  {{"estimation.x", "m"}}};
-    const std::string lines = record_lines(order);
+    const DataSelection order{"crane", {"estimation.u"},       {"estimation.theta", "estimation.x"}, "estimation.t", 0,
+                              "data",  {{"estimation.x", "m"}}};
+    const std::string lines = loading_lines(order);
     EXPECT_THAT(lines,
                 HasSubstr("matrix{data_file.estimation.theta, data_file.estimation.x}, data_file.estimation.u, 0.02,"));
     EXPECT_THAT(lines, HasSubstr("OutputName = {\"theta\", \"x\"}, OutputUnit = {\"\", \"m\"}"));
-    const std::string first = with_record("-- ---\n-- title: Session\n-- language: fr\n-- ---\n", order, lines);
+    const std::string first = with_data("-- ---\n-- title: Session\n-- language: fr\n-- ---\n", order, lines);
     EXPECT_THAT(first, HasSubstr("-- language: fr\n"));
     const std::string later = first + "\n-- %% id=G1\nG1 = tfsrivc(estimation, 2, 0)\n";
-    EXPECT_EQ(with_record(later, order, lines), later);
-    RecordOrder other = order;
+    EXPECT_EQ(with_data(later, order, lines), later);
+    DataSelection other = order;
     other.name = "second1";
-    const std::string both = with_record(later, other, record_lines(other));
+    const std::string both = with_data(later, other, loading_lines(other));
     EXPECT_LT(both.find("data = iddata("), both.find("-- %% id=second1\n"));
     EXPECT_LT(both.find("second1 = iddata("), both.find("-- %% id=preparation"));
     EXPECT_THAT(both, HasSubstr("-- %% id=G1\n"));

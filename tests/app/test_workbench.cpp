@@ -19,7 +19,7 @@ using testing::Not;
 class workbench : public workbench_page {};
 
 TEST_F(workbench, a_file_that_no_one_has_seen_becomes_a_validated_model_with_its_report) {
-    write_record();
+    write_data_set();
     const auto program = app("plant.csv");
     Browser browser;
     browser.open(program->address());
@@ -46,7 +46,7 @@ TEST_F(workbench, a_file_that_no_one_has_seen_becomes_a_validated_model_with_its
 
 /// What the page shows is what the script computes.
 TEST_F(workbench, numbers_are_those_of_the_script) {
-    write_record();
+    write_data_set();
     const auto program = app("plant.csv");
     Browser browser;
     browser.open(program->address());
@@ -177,7 +177,7 @@ TEST_F(workbench, an_untrusted_script_is_shown_and_not_run_before_consent) {
 }
 
 TEST_F(workbench, the_script_is_on_disk_when_the_program_is_killed) {
-    write_record();
+    write_data_set();
     const auto program = app("plant.csv");
     Browser browser;
     browser.open(program->address());
@@ -193,7 +193,7 @@ TEST_F(workbench, the_script_is_on_disk_when_the_program_is_killed) {
 }
 
 TEST_F(workbench, steps_of_preparation_are_switched_off_moved_and_removed) {
-    write_record();
+    write_data_set();
     const auto program = app("plant.csv");
     Browser browser;
     browser.open(program->address());
@@ -216,7 +216,7 @@ TEST_F(workbench, steps_of_preparation_are_switched_off_moved_and_removed) {
 }
 
 TEST_F(workbench, the_map_of_orders_estimates_what_is_clicked) {
-    write_record();
+    write_data_set();
     const auto program = app("plant.csv");
     Browser browser;
     browser.open(program->address());

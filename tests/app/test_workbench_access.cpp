@@ -41,7 +41,7 @@ class workbench_access : public workbench_page {
 };
 
 TEST_F(workbench_access, keys_alone_lead_from_a_file_to_a_model_and_its_figure_in_the_report) {
-    write_record("zz.csv");
+    write_data_set("zz.csv");
     const auto program = app("");
     Browser browser;
     browser.open(program->address());

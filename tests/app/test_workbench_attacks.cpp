@@ -77,7 +77,7 @@ class workbench_attacks : public workbench_page {
     std::unique_ptr<PageProgram> reopened(const std::string& name) const {
         return std::make_unique<PageProgram>(std::vector<std::string>{"app", name}, cache.path(), folder.path());
     }
-    static std::string record(int samples) {
+    static std::string simulated_data(int samples) {
         std::string text = "t,u,y\n";
         for (int k = 0; k < samples; ++k)
             text += std::to_string(k) + "," + std::to_string(k % 7) + "," + std::to_string(k % 5) + "\n";
@@ -148,15 +148,15 @@ TEST_F(workbench_attacks, a_slider_that_is_held_to_the_last_is_saved) {
 }
 
 TEST_F(workbench_attacks, a_data_file_that_changes_goes_and_comes_is_noticed) {
-    write("r.csv", record(50));
+    write("r.csv", simulated_data(50));
     const auto program = allowed("s.lua", "-- %% id=a\nlocal d = load(\"r.csv\")\nprint(#d.y)\n");
     const Asker page(program->address());
     ASSERT_TRUE(page.prints("a", "50\n"));
-    write("r.csv", record(80));
+    write("r.csv", simulated_data(80));
     EXPECT_TRUE(page.prints("a", "80\n"));
     fs::remove(file("r.csv"));
     EXPECT_TRUE(page.tells("r.csv"));
-    write("r.csv", record(60));
+    write("r.csv", simulated_data(60));
     EXPECT_TRUE(page.prints("a", "60\n"));
 }
 
@@ -225,12 +225,12 @@ TEST_F(workbench_attacks, what_is_refused_is_reported_in_the_script_s_language) 
     refuses("english.lua", "This script is not allowed to run yet. Allow it on the page.",
             "unknown function or variable", "A report cannot be created from a script with an error: ");
     write("french.lua", "-- ---\n-- language: fr\n-- ---\n\n" + mistake);
-    refuses("french.lua", "Ce script n'a pas encore le droit d'être exécuté\u202f: donnez-le-lui sur la page.", "ni fonction ni variable",
-            "Il n'y a pas de rapport d'un script qui contient une erreur");
+    refuses("french.lua", "Ce script n'a pas encore le droit d'être exécuté\u202f: donnez-le-lui sur la page.",
+            "ni fonction ni variable", "Il n'y a pas de rapport d'un script qui contient une erreur");
 }
 
 TEST_F(workbench_attacks, a_session_begun_here_is_asked_for_when_another_script_lies_there) {
-    write("plant.csv", record(50));
+    write("plant.csv", simulated_data(50));
     const auto asks = [&] {
         const auto program = reopened("plant.csv");
         return Asker(program->address()).page()["asking"].get<bool>();
@@ -247,7 +247,7 @@ TEST_F(workbench_attacks, files_of_one_name_at_once_all_stay) {
     constexpr int kFiles = 8;
     std::vector<std::thread> senders;
     for (int k = 0; k < kFiles; ++k)
-        senders.emplace_back([&, k] { page.post("/upload?name=new.csv", record(50 + k)); });
+        senders.emplace_back([&, k] { page.post("/upload?name=new.csv", simulated_data(50 + k)); });
     for (std::thread& sender : senders) sender.join();
     std::set<std::string> kept;
     for (const auto& entry : fs::directory_iterator(folder.path()))
@@ -256,7 +256,7 @@ TEST_F(workbench_attacks, files_of_one_name_at_once_all_stay) {
 }
 
 TEST_F(workbench_attacks, records_chosen_at_once_are_all_in_the_script) {
-    write("plant.csv", record(50));
+    write("plant.csv", simulated_data(50));
     const auto program = app("plant.csv");
     const Asker page(program->address());
     std::vector<std::thread> senders;
@@ -278,10 +278,10 @@ TEST_F(workbench_attacks, records_chosen_at_once_are_all_in_the_script) {
 
 TEST_F(workbench_attacks, records_are_those_of_the_folder_and_of_the_course) {
     const TemporaryFolder elsewhere;
-    std::ofstream(elsewhere.path() / "outside.csv") << record(50);
-    write("inside.csv", record(50));
+    std::ofstream(elsewhere.path() / "outside.csv") << simulated_data(50);
+    write("inside.csv", simulated_data(50));
     fs::create_directory(file("below"));
-    write("below/inside.csv", record(50));
+    write("below/inside.csv", simulated_data(50));
     const auto program = app("");
     const Asker page(program->address());
     const auto status = [&](const std::string& data) { return page.get("/columns?data=" + data)->status; };

@@ -25,7 +25,7 @@ const order = (revision, first, last, text) => plain('script', { method: 'POST',
 class workbench_hands : public workbench_page {
   protected:
     void SetUp() override {
-        write_record();
+        write_data_set();
         program = app("plant.csv");
         browser.open(program->address());
         ASSERT_TRUE(view_appears(browser, "record"));

@@ -264,7 +264,7 @@ TEST_F(workbench_page_parts, parts_keep_their_place_in_time_when_the_record_is_r
 }
 
 TEST_F(workbench_page_parts, a_second_record_is_prepared_alike_and_shown) {
-    write_record("second.csv");
+    write_data_set("second.csv");
     Browser browser;
     const auto program = open(browser);
     press_all(browser, {"+ Level"});

@@ -75,7 +75,7 @@ TEST_F(workbench_reports, the_crane_is_identified_by_clicks_with_both_outputs_an
 
 /// The text that the workbench wrote follows the language of the script. Text that the user changed stays as it is.
 TEST_F(workbench_reports, the_language_turns_what_the_workbench_has_written_and_says) {
-    write_record();
+    write_data_set();
     const auto program = app("plant.csv");
     Browser browser;
     browser.open(program->address());
@@ -122,7 +122,7 @@ TEST_F(workbench_reports, the_language_turns_what_the_workbench_has_written_and_
 
 /// The messages of a run are in the language of its script. A page in another language would mix both.
 TEST_F(workbench_reports, a_new_session_is_in_the_language_of_the_browser_and_another_in_its_own) {
-    write_record();
+    write_data_set();
     const auto program = app("plant.csv");
     Browser browser;
     browser.devtools("Network.setUserAgentOverride", R"({"userAgent": "Chromium", "acceptLanguage": "fr-FR"})");

@@ -12,16 +12,16 @@ namespace dynlab::bench {
 namespace {
 
 constexpr std::uint32_t kFirstAdviceSeed = 20'001;  // none that tests use
-constexpr int kRecords = 30;
+constexpr int kDataSets = 30;
 
 using Judge = bool (*)(const Advice&, const test::CorpusKind&);
 
 /// Adds the row: the number of data sets of a kind with wrong issues. Prints these data sets.
 void count_wrong(const char* what, const test::CorpusKind& kind, Judge right, double bar, Report& report) {
     std::atomic<int> wrong = 0;
-    tbb::parallel_for(0, kRecords, [&](int i) {
+    tbb::parallel_for(0, kDataSets, [&](int i) {
         const std::uint32_t seed = kFirstAdviceSeed + static_cast<std::uint32_t>(i);
-        const Advice advice = advise(kind.record(seed));
+        const Advice advice = advise(kind.simulated_data(seed));
         if (right(advice, kind)) return;
         ++wrong;
         std::string reported;
@@ -30,7 +30,7 @@ void count_wrong(const char* what, const test::CorpusKind& kind, Judge right, do
         std::printf("%s, record %u: %s; told:%s\n", kind.name.c_str(), seed, what, reported.c_str());
     });
     report.results.push_back({"advice, " + kind.name + ": " + what, "all records", static_cast<double>(wrong),
-                              static_cast<double>(kRecords), bar, 0});
+                              static_cast<double>(kDataSets), bar, 0});
 }
 
 }  // namespace

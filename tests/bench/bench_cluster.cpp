@@ -14,7 +14,7 @@ constexpr int kClass = 300, kRepetitions = 3, kProcesses = 2;
 constexpr double kMostAgainstThreads = 1.25, kMostAgainstOneCore = 1 / 1.8;
 
 // The experiment of lesson 4: its system, its data with noise of 0.2, its two estimators.
-constexpr const char* kRecords =
+constexpr const char* kDataSets =
     "print(montecarlo{system = tf({2}, {1, 4, 3}), input = prbs(4, 100), Ts = 0.01, sigma = 0.2, runs = 100000, seed = "
     "3,\n    estimators = {lssvf = {{2, 1, 0}, 3}, ivsvf = {{2, 1, 0}, 3}}})\n";
 
@@ -50,7 +50,7 @@ void measure_cluster(Report& report) {
     } else {
         report.left_out.push_back("300 submissions on two nodes of Slurm: " + slurm.reason_to_skip());
     }
-    bench.write("records.lua", kRecords);
+    bench.write("records.lua", kDataSets);
     const auto [one, two] = paired_medians(
         1, [&] { run_by_shell(bench, "DYNLAB_NO_CACHE=1 taskset -c 0 \"$DYNLAB\" run records.lua --out one"); },
         [&] { run_by_shell(bench, "rm -rf two; \"$DYNLAB\" study records.lua --on processes:2 --out two"); });

@@ -29,8 +29,8 @@ constexpr Index kShort = 1500, kLong = 1'000'000, kVeryLong = 10'000'000;
 constexpr int kRuns = 200;
 
 /// Data of 2/(s^2 + 4s + 3): its response x to a binary sequence that does not repeat, and y = x + noise.
-struct Record {
-    explicit Record(Index samples)
+struct DataSet {
+    explicit DataSet(Index samples)
         : u(samples == kShort ? prbs(4, 100).head(samples) : prbs(17, 100).head(samples)),
           x(lsim(TransferFunction(Vector::Constant(1, 2.0), Eigen::Vector3d(1, 4, 3)), u, kSamplingTime)),
           y(x + kNoise * RandomStream(1).normal(samples)),
@@ -73,10 +73,12 @@ double read_once(const Vector& u, const Vector& y) {
     return u.dot(y);
 }
 
-void measure_lssvf(const Record& million, const Record& ten_million, Report& report) {
-    const auto estimate = [](const Record& record) { return on_one_core([&] { return lssvf_theta(record.data); }); };
+void measure_lssvf(const DataSet& million, const DataSet& ten_million, Report& report) {
+    const auto estimate = [](const DataSet& data_set) {
+        return on_one_core([&] { return lssvf_theta(data_set.data); });
+    };
     {
-        const PeerRecord file(million.u, million.y);
+        const PeerData file(million.u, million.y);
         const auto work = [&] { return estimate(million); };
         compare_with_peer({"LSSVF, N = 1e6 (s)", Peer::kNumpy, "lssvf", 1.0 / 100, 1.0 / 150, 21}, file, work, report);
         compare_with_peer({"LSSVF, N = 1e6 (s)", Peer::kNumpy, "lssvf_lstsq", 1.0 / 100, 1.0 / 150, 21}, file, work,
@@ -88,15 +90,15 @@ void measure_lssvf(const Record& million, const Record& ten_million, Report& rep
         11, [&] { check += estimate(ten_million).sum(); }, [&] { check += read_once(ten_million.u, ten_million.y); });
     if (check == 0) throw std::logic_error("nothing was estimated");
     report.results.push_back({"LSSVF, N = 1e7 (s)", "one read of u and y (s)", measured, reference, 3, 2});
-    const PeerRecord file(ten_million.u, ten_million.y);
+    const PeerData file(ten_million.u, ten_million.y);
     compare_with_peer(
         {"LSSVF, N = 1e7 (s)", Peer::kNumpy, "lssvf", 1.0 / 100, 1.0 / 150, 5, 3}, file,
         [&] { return estimate(ten_million); }, report);
 }
 
-void measure_srivc(const Record& record, const std::string& what, double goal, int repetitions, Report& report) {
-    const PeerRecord file(record.u, record.y);
-    const auto work = [&] { return on_one_core([&] { return srivc_theta(record.data); }); };
+void measure_srivc(const DataSet& data_set, const std::string& what, double goal, int repetitions, Report& report) {
+    const PeerData file(data_set.u, data_set.y);
+    const auto work = [&] { return on_one_core([&] { return srivc_theta(data_set.data); }); };
     const int peer_repetitions = std::min(repetitions, 101);
     compare_with_peer({what, Peer::kNumpy, "srivc", 1.0 / 25, goal, repetitions, peer_repetitions}, file, work, report);
     compare_with_peer({what, Peer::kOctave, "srivc", 1.0 / 25, 0, repetitions, std::min(peer_repetitions, 21)}, file,
@@ -104,46 +106,47 @@ void measure_srivc(const Record& record, const std::string& what, double goal, i
 }
 
 /// What it costs that no cut-off frequency is known: several are tried.
-void measure_starts(const Record& record, Report& report) {
+void measure_starts(const DataSet& data_set, Report& report) {
     const TransferStructure structure = TransferStructure::single(2, 0);
     FitOptions alone;
     double check = 0;
     const auto [measured, reference] = paired_medians(
-        301, [&] { check += srivc(record.data, structure, alone).loss; },
-        [&] { check += srivc_theta(record.data)[0]; });
+        301, [&] { check += srivc(data_set.data, structure, alone).loss; },
+        [&] { check += srivc_theta(data_set.data)[0]; });
     if (check == 0) throw std::logic_error("nothing was estimated");
     report.results.push_back(
         {"SRIVC, N = 1500, all starts (s)", "cut-off frequency given (s)", measured, reference, 3, 0});
 }
 
 /// Means of LSSVF, IVSVF and SRIVC over the runs.
-Vector monte_carlo(const Record& record, int threads) {
+Vector monte_carlo(const DataSet& data_set, int threads) {
     Matrix theta(9, kRuns);
     tbb::task_arena arena(threads);
     arena.execute([&] {
         tbb::parallel_for(0, kRuns, [&](int run) {
             const auto seed = static_cast<std::uint32_t>(1 + run);
-            const IdData data(record.x + kNoise * RandomStream(seed).normal(record.x.size()), record.u, kSamplingTime);
+            const IdData data(data_set.x + kNoise * RandomStream(seed).normal(data_set.x.size()), data_set.u,
+                              kSamplingTime);
             theta.col(run) << lssvf_theta(data), ivsvf_theta(data), srivc_theta(data);
         });
     });
     return theta.rowwise().mean();
 }
 
-void measure_monte_carlo(const Record& record, Report& report) {
+void measure_monte_carlo(const DataSet& data_set, Report& report) {
     const std::string what = "Monte Carlo, 200 runs, N = 1500 (s)";
     // Other random numbers: the means of 200 runs differ by half a percent at most.
     constexpr double kTolerance = 0.05;
     compare_with_peer(
-        {what, Peer::kNumpy, "monte_carlo", 1.0 / 30, 1.0 / 60, 11, 5, kTolerance}, {record.u, record.x},
-        [&] { return monte_carlo(record, 1); }, report);
+        {what, Peer::kNumpy, "monte_carlo", 1.0 / 30, 1.0 / 60, 11, 5, kTolerance}, {data_set.u, data_set.x},
+        [&] { return monte_carlo(data_set, 1); }, report);
     const auto [two, one] = paired_medians(
-        21, [&] { monte_carlo(record, 2); }, [&] { monte_carlo(record, 1); });
+        21, [&] { monte_carlo(data_set, 2); }, [&] { monte_carlo(data_set, 1); });
     report.results.push_back({what + ", two threads", "one thread (s)", two, one, 1 / 1.7, 0});
 }
 
 /// Uses ten different data sets. A single one would stay in the processor cache, whose speed would look like growth.
-void measure_growth(const std::string& what, Method method, const Record& ten_million, Report& report) {
+void measure_growth(const std::string& what, Method method, const DataSet& ten_million, Report& report) {
     const auto estimate = [&](const IdData& data) { on_one_core([&] { return method(data); }); };
     std::vector<IdData> pieces;
     for (Index first = 0; first < kVeryLong; first += kLong)
@@ -196,7 +199,7 @@ void measure_impulse_responses(Report& report) {
 }
 
 void measure_memory(const std::string& what, Method method, Report& report) {
-    const IdData data = std::move(Record(kVeryLong).data);
+    const IdData data = std::move(DataSet(kVeryLong).data);
     const double megabytes = 2.0 * static_cast<double>(kVeryLong) * sizeof(double) / (1 << 20);
     const double peak = test::peak_memory([&] { method(data); });
     report.results.push_back(
@@ -205,33 +208,33 @@ void measure_memory(const std::string& what, Method method, Report& report) {
 
 /// One pass with forgetting, against what a sample may cost.
 template <class Method>
-void measure_recursive(const std::string& what, Method method, const Record& record, Report& report) {
+void measure_recursive(const std::string& what, Method method, const DataSet& data_set, Report& report) {
     constexpr double kSecondsPerSample = 200e-9;
     RecursiveOptions options;
     options.lambda = kCutoff;
     options.forgetting = 0.999;
     double check = 0;
     const double seconds =
-        median_seconds(5, [&] { check += method(record.data, TransferStructure::single(2, 0), options).theta[0]; });
+        median_seconds(5, [&] { check += method(data_set.data, TransferStructure::single(2, 0), options).theta[0]; });
     if (check == 0) throw std::logic_error("nothing was estimated");
     report.results.push_back({what + ", N = 1e6 (s)", "200 ns a sample (s)", seconds,
-                              kSecondsPerSample * static_cast<double>(record.u.size()), 1, 0});
+                              kSecondsPerSample * static_cast<double>(data_set.u.size()), 1, 0});
 }
 
 }  // namespace
 
 void measure_estimators(Report& report) {
     {
-        const Record record(kShort);
-        measure_srivc(record, "SRIVC, N = 1500 (s)", 1.0 / 40, 301, report);
-        measure_starts(record, report);
-        measure_monte_carlo(record, report);
+        const DataSet data_set(kShort);
+        measure_srivc(data_set, "SRIVC, N = 1500 (s)", 1.0 / 40, 301, report);
+        measure_starts(data_set, report);
+        measure_monte_carlo(data_set, report);
     }
     measure_response(report);
     measure_impulse_responses(report);
     measure_memory("LSSVF", lssvf_theta, report);
     measure_memory("SRIVC", srivc_theta, report);
-    const Record million(kLong), ten_million(kVeryLong);
+    const DataSet million(kLong), ten_million(kVeryLong);
     measure_lssvf(million, ten_million, report);
     measure_srivc(million, "SRIVC, N = 1e6 (s)", 1.0 / 80, 11, report);
     measure_recursive("recursive LSSVF", rlssvf, million, report);

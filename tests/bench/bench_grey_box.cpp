@@ -19,7 +19,7 @@ Vector twice(const Vector& u) {
 
 /// The crane's estimation data, 4 states, 7 parameters, against scipy's least_squares and solve_ivp.
 void measure_grey_box(Report& report) {
-    const CraneRecord crane = simulate_crane({}, {}, 1).front();
+    const CraneData crane = simulate_crane({}, {}, 1).front();
     Matrix y(crane.u.size(), 2);
     y << crane.x.array() - crane.x[0], crane.theta;
     const IdData data(y, Matrix(crane.u), 0.02);

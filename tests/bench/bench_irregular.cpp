@@ -18,7 +18,7 @@ constexpr Index kSteady = 20;  // samples of a level of the held input
 constexpr double kBar = 5;     // times the time for regular data
 
 /// 2/(s^2 + 4s + 3) e^(-0.37 s) with noise, at these instants.
-IdData record_at(const Vector& t, const Vector& u, bool regular) {
+IdData data_at(const Vector& t, const Vector& u, bool regular) {
     const TransferFunction G = TransferFunction(Vector::Constant(1, 2.0), Vector{{1, 4, 3}}).with_delay(kDelay);
     const Vector noise = kNoise * RandomStream(2).normal(u.size());
     if (regular) return IdData(Matrix(lsim(G, u, kSamplingTime) + noise), Matrix(u), kSamplingTime);
@@ -54,7 +54,7 @@ void estimate(const IdData& data) {
 /// In turn and on one core; the least of the processor's times, for others can only add to them.
 void measure_pair(const std::string& input, const Vector& u, Report& report) {
     const Index N = u.size();
-    const IdData regular = record_at({}, u, true), irregular = record_at(uneven_instants(N), u, false);
+    const IdData regular = data_at({}, u, true), irregular = data_at(uneven_instants(N), u, false);
     const int repetitions = std::clamp(static_cast<int>(100'000 / N), 7, 41);
     double of_regular = kInfinity, of_irregular = kInfinity;
     for (int i = 0; i < repetitions; ++i) {

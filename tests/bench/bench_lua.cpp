@@ -11,7 +11,7 @@ namespace {
 
 /// Data sets of N samples that the session simulates: two poles (d), three poles (d3), two poles with a delay that is
 /// not a whole number of samples (dd), and two poles with colored noise (dc).
-constexpr char kRecords[] = R"(
+constexpr char kDataSets[] = R"(
 N, Ts = 999000, 0.01
 s = tf("s")
 G = 2/(s^2 + 4*s + 3)
@@ -54,7 +54,7 @@ void compare_lines(LuaSession& session, const Result& row, const std::string& li
 
 /// Lines that set E, against numpy; a short one is repeated within one measurement.
 struct NumpyCall {
-    const char *what, *record, *line, *job;
+    const char *what, *data_set, *line, *job;
     double bar, goal;
     int calls = 1;
 };
@@ -69,8 +69,8 @@ constexpr NumpyCall kNumpyCalls[] = {
 
 void measure_against_numpy(LuaSession& session, Report& report) {
     for (const NumpyCall& call : kNumpyCalls) {
-        const std::string record = call.record;
-        const Vector u = session.numbers(record + ".u"), y = session.numbers(record + ".y");
+        const std::string data_set = call.data_set;
+        const Vector u = session.numbers(data_set + ".u"), y = session.numbers(data_set + ".y");
         const std::string line = fmt::format("for _ = 1, {} do E = {} end", call.calls, call.line);
         const auto work = [&] {
             session.clear_results();
@@ -126,7 +126,7 @@ void measure_saving(LuaSession& session, Report& report) {
 
 void measure_lua(Report& report) {
     LuaSession session;
-    session.run(kRecords);
+    session.run(kDataSets);
     measure_against_numpy(session, report);
     measure_srivc_calls(session, report);
     measure_validation_calls(session, report);

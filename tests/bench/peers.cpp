@@ -81,7 +81,7 @@ bool installed(Peer peer) {
     return peer == Peer::kNumpy ? python().has_value() : find_program("octave-cli").has_value();
 }
 
-PeerRecord::PeerRecord(const VectorView& u, const VectorView& y) {
+PeerData::PeerData(const VectorView& u, const VectorView& y) {
     std::ofstream stream(file(), std::ios::binary);
     for (const VectorView* signal : {&u, &y}) {
         stream.write(reinterpret_cast<const char*>(signal->data()),
@@ -91,16 +91,16 @@ PeerRecord::PeerRecord(const VectorView& u, const VectorView& y) {
     if (!stream) throw std::runtime_error("cannot write " + file().string());
 }
 
-PeerRun run_peer(Peer peer, const std::string& job, const PeerRecord& record, int repetitions) {
+PeerRun run_peer(Peer peer, const std::string& job, const PeerData& data_set, int repetitions) {
     std::vector<std::string> command = command_of(peer);
-    for (const std::string& argument : {job, record.file().string(), std::to_string(repetitions)})
+    for (const std::string& argument : {job, data_set.file().string(), std::to_string(repetitions)})
         command.push_back(argument);
     const ChildResult result = run_on_one_core(command, peer == Peer::kNumpy ? "python3-scipy" : "octave");
     if (result.exit_code != 0) throw std::runtime_error(result.output + result.error_output);
     return parse_peer_run(result.output);
 }
 
-void compare_with_peer(const Comparison& comparison, const PeerRecord& record, const std::function<Vector()>& work,
+void compare_with_peer(const Comparison& comparison, const PeerData& data_set, const std::function<Vector()>& work,
                        Report& report) {
     const std::string against = fmt::format("{} ({}, s)", name_of(comparison.peer), comparison.job);
     if (!installed(comparison.peer)) {
@@ -110,7 +110,7 @@ void compare_with_peer(const Comparison& comparison, const PeerRecord& record, c
     Vector ours = work();
     const auto repeat = [&] { ours = work(); };
     std::vector<double> times = repeated_seconds(comparison.repetitions, repeat);
-    const PeerRun theirs = run_peer(comparison.peer, comparison.job, record, comparison.peer_repetitions);
+    const PeerRun theirs = run_peer(comparison.peer, comparison.job, data_set, comparison.peer_repetitions);
     for (const double time : repeated_seconds(comparison.repetitions, repeat)) times.push_back(time);
     must_agree(comparison, ours, theirs.theta);
     report.results.push_back(

@@ -17,9 +17,9 @@ std::string name_of(Peer peer);
 bool installed(Peer peer);  ///< with the libraries the peer needs
 
 /// A data set as the peers read it: a file of N inputs and N outputs. The destructor removes the file.
-class PeerRecord {
+class PeerData {
   public:
-    PeerRecord(const VectorView& u, const VectorView& y);
+    PeerData(const VectorView& u, const VectorView& y);
     std::filesystem::path file() const { return folder_.path() / "record"; }
 
   private:
@@ -32,7 +32,7 @@ struct PeerRun {
 };
 
 /// Runs a job of numpy_peer.py or octave_peer.m. Throws std::runtime_error with its words when it fails.
-PeerRun run_peer(Peer peer, const std::string& job, const PeerRecord& record, int repetitions);
+PeerRun run_peer(Peer peer, const std::string& job, const PeerData& data_set, int repetitions);
 
 struct Comparison {
     std::string what;
@@ -46,7 +46,7 @@ struct Comparison {
 
 /// Adds the row that compares `work` with the peer's job. `work` runs before the peer and again after it, and returns
 /// its estimate. Without the peer, no row is added. Throws std::runtime_error if the two estimates differ.
-void compare_with_peer(const Comparison& comparison, const PeerRecord& record, const std::function<Vector()>& work,
+void compare_with_peer(const Comparison& comparison, const PeerData& data_set, const std::function<Vector()>& work,
                        Report& report);
 
 }  // namespace dynlab::bench

@@ -45,7 +45,7 @@ class LabCourse {
     std::int64_t submit(int i, const std::string& time, int number = 1, const std::string& part = "script") {
         const std::string hash = course_.keep(CourseBench::group(i) + time);
         Transaction transaction(course_.database());
-        course_.record_file(hash, 1, at(time));
+        course_.register_file(hash, 1, at(time));
         course_.database().run(
             "INSERT INTO versions (assignment, group_id, stage, part, number, hash, name, received_at, due_at, late, "
             "findings, signature) VALUES (?, ?, 'first', ?, ?, ?, 'analysis.lua', ?, ?, 0, '', '')",
@@ -80,7 +80,7 @@ class LabCourse {
     /// Of checks x and y with 4 and 6 points.
     void grade(std::int64_t version, double x, double y, bool y_graded = true) {
         Transaction transaction(course_.database());
-        record_result(course_, {version, {{"x", 4, x, true}, {"y", 6, y, y_graded}}, "f"}, at("2026-03-02 12:00"));
+        save_result(course_, {version, {{"x", 4, x, true}, {"y", 6, y, y_graded}}, "f"}, at("2026-03-02 12:00"));
         transaction.commit();
     }
     bool mark(const GivenMark& mark) {
@@ -143,7 +143,7 @@ TEST(course_labs, marks_by_hand_replace_points_and_can_be_taken_back) {
     // What cannot be read was given no points, which says nothing of the checks.
     const std::int64_t unreadable = course.submit(2, "2026-02-01 12:00");
     Transaction transaction(course.course().database());
-    record_result(course.course(), {unreadable, {}, "f"}, course.at("2026-03-02 13:00"));
+    save_result(course.course(), {unreadable, {}, "f"}, course.at("2026-03-02 13:00"));
     transaction.commit();
     EXPECT_EQ(most_points(course.course(), course.lab(), "*"), 10);
     // A work that only its author could show has no version.

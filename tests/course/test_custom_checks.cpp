@@ -137,18 +137,18 @@ const std::string kComputes = "local d = load('rc')\nanswer('K', mean(d.y)/mean(
 constexpr const char* kNearTwo = "check{id = 'K', test = function(a) return near(a.K, 2, {rel = 0.01}) end}\n";
 
 /// A course whose lesson has a data set that no simulated plant produces.
-void add_record(GradingBench& bench, const std::string& record) {
+void add_data_set(GradingBench& bench, const std::string& data_set) {
     const Workbench& work = bench.bench();
     std::filesystem::remove(work.path("home/data"));
     work.shell("mkdir home/data && cp -r " DYNLAB_SOURCE_DIR "/data/* home/data");
     work.write("home/data/rc/SOURCE.md", "A record.\n");
-    work.write("home/data/rc/rc.csv", record);
+    work.write("home/data/rc/rc.csv", data_set);
 }
 
 // oracle: the gains with which the data sets were written
 TEST(custom_checks, rerun_on_records_in_files) {
     GradingBench bench(kGain, kNearTwo, kComputes);
-    add_record(bench, "u,y\n1,2\n2,4\n3,6\n");
+    add_data_set(bench, "u,y\n1,2\n2,4\n3,6\n");
     bench.bench().write("own/rerun/rc.csv", "u,y\n1,5\n2,10\n");
     bench.bench().write("own/hidden/other.csv", "u,y\n1,2\n2,4\n");
     bench.bench().write(
@@ -181,7 +181,7 @@ void write_newer_matlab_file(const std::filesystem::path& file, double u) {
 // oracle: the numbers that were written; such files are read by a library that is confined to memory
 TEST(custom_checks, read_several_hidden_records_of_the_newer_matlab_format) {
     GradingBench bench(kGain, kNearTwo, kComputes);
-    add_record(bench, "u,y\n1,2\n2,4\n3,6\n");
+    add_data_set(bench, "u,y\n1,2\n2,4\n3,6\n");
     write_newer_matlab_file(bench.bench().path("own/hidden/one.mat"), 3);
     write_newer_matlab_file(bench.bench().path("own/hidden/two.mat"), 4);
     bench.bench().write("own/more.lua",
@@ -213,7 +213,7 @@ TEST(custom_checks, zeros_differ_from_other_numbers_and_have_no_share) {
 // oracle: the law by which the plant in the file produces its data
 TEST(custom_checks, rerun_on_records_of_a_plant_in_lua) {
     GradingBench bench(kGain, kNearTwo, kComputes);
-    add_record(bench, "u,y\n1,2\n2,4\n3,6\n");
+    add_data_set(bench, "u,y\n1,2\n2,4\n3,6\n");
     bench.bench().write(
         "own/more.lua",
         "local function gain(specimen) return 1 + specimen % 7 end\n"

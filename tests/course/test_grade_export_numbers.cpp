@@ -95,12 +95,12 @@ TEST_F(grade_export_numbers, a_look_leaves_feedback_new_until_it_is_delivered) {
         const TextTable mail = read_text_table(folder_.path() / "handed_back/mail.csv");
         return std::ranges::count_if(mail.rows, [&](const auto& row) { return row[*mail.column("new")] == "yes"; });
     };
-    EXPECT_THROW(record_delivery(folder_.path()), EnvironmentError);
+    EXPECT_THROW(log_delivery(folder_.path()), EnvironmentError);
     for (int i = 0; i < 2; ++i) {
         write_grade_export(request_);
         EXPECT_EQ(new_ones(), 3);
     }
-    EXPECT_EQ(record_delivery(folder_.path()), 3);
+    EXPECT_EQ(log_delivery(folder_.path()), 3);
     const GradeExport again = write_grade_export(request_);
     EXPECT_EQ(new_ones(), 0);
     EXPECT_THAT(reported(again.notes), HasSubstr("all feedback was already delivered"));

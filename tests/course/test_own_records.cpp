@@ -21,7 +21,7 @@ class own_records : public ::testing::TestWithParam<GroupsOfLesson> {};
 class own_records_of_many : public ::testing::TestWithParam<GroupsOfLesson> {};
 
 /// A copy of the lesson whose checks request no runs on other data.
-Lesson with_own_records_alone(const Workbench& bench, const std::string& lesson) {
+Lesson with_own_data_sets_alone(const Workbench& bench, const std::string& lesson) {
     static const std::regex expected(R"(rerun = "(?!seed")\w+",)");
     const std::filesystem::path folder = bench.path("alone") / lesson;
     std::filesystem::create_directories(folder.parent_path());
@@ -47,7 +47,7 @@ void expect_full_marks(const GroupsOfLesson& groups, Workbench::Memory memory,
     setup.jobs = 2;
     setup.call_memory = bench.cache() / "dynlab";
     const GradingRules rules(setup);
-    setup.lesson = with_own_records_alone(bench, lesson);
+    setup.lesson = with_own_data_sets_alone(bench, lesson);
     const GradingRules own_only(setup);
     std::vector<GradingRules::Work> works;
     for (const int seed : seeds) {

@@ -48,7 +48,7 @@ class Term {
     void submit_pack(const std::string& group, const std::string& time) {
         const std::string content = "pack of " + group + time, hash = course_.keep(content);
         course_.settle({hash});
-        course_.record_file(hash, static_cast<std::int64_t>(content.size()), at(time));
+        course_.register_file(hash, static_cast<std::int64_t>(content.size()), at(time));
         course_.database().run(
             "INSERT INTO versions (assignment, group_id, stage, part, number, hash, name, received_at, due_at, late, "
             "findings, signature) VALUES (?, ?, 'first', 'pack', 1, ?, 'work.zip', ?, ?, 0, '', '')",

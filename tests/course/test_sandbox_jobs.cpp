@@ -41,7 +41,7 @@ ChecksJob sample_checks() {
                                  "answer('G', 1)",
                                  AnswerChange{"G", 1.5}};
     job.submissions = {{work, "/box/home-1", {{"hidden", {{"crane", 4'000'000'001u}}}}}, {}};
-    job.records = {{"rc", 5, 6}};
+    job.data_sets = {{"rc", 5, 6}};
     return job;
 }
 

@@ -206,9 +206,10 @@ std::string laid_out_differently(std::string script) {
 /// The pieces after the starter code and the data set, in another order.
 std::string reordered(const std::string& script) {
     const std::size_t place = script.find("\n", script.size() / 2) + 1, head = script.find("iddata(");
-    const std::size_t record = script.find('\n', head) + 1;
-    return place <= record ? script
-                           : script.substr(0, record) + script.substr(place) + script.substr(record, place - record);
+    const std::size_t data_end = script.find('\n', head) + 1;
+    return place <= data_end
+               ? script
+               : script.substr(0, data_end) + script.substr(place) + script.substr(data_end, place - data_end);
 }
 
 std::set<std::pair<std::string, std::string>> names_of(const std::vector<ComparedScript>& scripts,

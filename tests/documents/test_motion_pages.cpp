@@ -29,12 +29,12 @@ Figure sliding_block() {
     rig.pieces = {{{0, 6}, {0.5, 0.5}, {-1, -1}, false, 1.1},
                   {{1, 2, 2, 1}, {1, 1, 2, 2}, {0, 0, 0, 0}, true, 1},
                   {{1, 2, 2, 1, 1}, {1, 1, 2, 2, 1}, {0, 0, 0, 0, 0}, false, 0.5}};
-    MotionRecord record;
-    record.t = Vector::LinSpaced(501, 0, 10);
-    record.measured = record.t / 4, record.simulated = Matrix::Constant(501, 1, 3);
+    MotionData motion_data;
+    motion_data.t = Vector::LinSpaced(501, 0, 10);
+    motion_data.measured = motion_data.t / 4, motion_data.simulated = Matrix::Constant(501, 1, 3);
     MotionAppearance look;
     look.title = Message("A block");
-    return motion_plot(rig, record, look);
+    return motion_plot(rig, motion_data, look);
 }
 
 class motion_pages : public testing::Test {

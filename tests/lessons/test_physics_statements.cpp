@@ -58,10 +58,10 @@ Matrix crane_run(const Vector& p, const Vector& u, double delta) {
     return out;
 }
 
-Matrix measured_run(const CraneRecord& record) {
-    Matrix y(record.u.size(), 2);
-    y.col(0) = record.x.array() - record.x.head(50).mean();
-    y.col(1) = record.theta.array() - record.theta.head(50).mean();
+Matrix measured_run(const CraneData& data_set) {
+    Matrix y(data_set.u.size(), 2);
+    y.col(0) = data_set.x.array() - data_set.x.head(50).mean();
+    y.col(1) = data_set.theta.array() - data_set.theta.head(50).mean();
     return y;
 }
 
@@ -70,17 +70,17 @@ double deviation(const VectorView& e) {
 }
 
 /// mrad
-double angle_error(const Vector& p, const CraneRecord& record, double delta) {
-    return 1e3 * deviation((measured_run(record) - crane_run(p, record.u, delta)).col(1));
+double angle_error(const Vector& p, const CraneData& data_set, double delta) {
+    return 1e3 * deviation((measured_run(data_set) - crane_run(p, data_set.u, delta)).col(1));
 }
 
 /// The seven parameters with the smallest simulation error, each output's weighted by its standard deviation:
 /// Gauss-Newton with differences, from the values that the plant's own parameters give.
-Vector fitted_crane(const CraneRecord& record, double delta) {
+Vector fitted_crane(const CraneData& data_set, double delta) {
     Vector p{{1.0, 14.5, 0.24, 0.0334, 0.3722, 0.1, 0.024}};
-    const Matrix y = measured_run(record);
+    const Matrix y = measured_run(data_set);
     for (int pass = 0; pass < 12; ++pass) {
-        const Matrix errors = y - crane_run(p, record.u, delta);
+        const Matrix errors = y - crane_run(p, data_set.u, delta);
         const double weights[] = {1 / deviation(errors.col(0)), 1 / deviation(errors.col(1))};
         const auto stacked = [&](const Matrix& e) {
             return (Vector(2 * e.rows()) << weights[0] * e.col(0), weights[1] * e.col(1)).finished();
@@ -90,7 +90,7 @@ Vector fitted_crane(const CraneRecord& record, double delta) {
             Vector moved = p;
             const double step = 1e-4 * std::abs(p[i]) + 1e-6;
             moved[i] += step;
-            J.col(i) = stacked(errors - (y - crane_run(moved, record.u, delta))) / step;
+            J.col(i) = stacked(errors - (y - crane_run(moved, data_set.u, delta))) / step;
         }
         p += J.colPivHouseholderQr().solve(stacked(errors));
         p.tail(2) = p.tail(2).cwiseMax(0);
@@ -102,7 +102,7 @@ Vector fitted_crane(const CraneRecord& record, double delta) {
 TEST(lesson_06_physics, the_width_of_a_smooth_sign_is_a_part_of_the_model) {
     const nlohmann::json record = record_of_lesson("06_physics");
     const auto crane = simulate_crane({}, {}, 1);
-    const CraneRecord &estimation = crane[0], &validation = crane[1], &steps = crane[2];
+    const CraneData &estimation = crane[0], &validation = crane[1], &steps = crane[2];
     const int wide = 7, narrow = 0, half = 5;  // rows from `estimation`; the next one is from `steps`, but of narrow
     struct Case {
         double delta;
@@ -318,7 +318,7 @@ TEST(lesson_06_physics, neither_noise_nor_products_make_the_free_run_of_narx) {
     const int repetitions = 8;
     double with_noise = 0, without = 0;
     for (int seed = 1; seed <= repetitions; ++seed) {
-        const TwoTanksRecords noisy = simulate_two_tanks({}, {}, seed);
+        const TwoTanksData noisy = simulate_two_tanks({}, {}, seed);
         const double here = free_run_of_regression(noisy.estimation, noisy.validation, 4);
         if (seed == 1) {
             EXPECT_NEAR(here, 0.268, 0.01) << "V";

@@ -17,14 +17,14 @@ namespace test_thruster_statements {
 const double kPeriod = ThrusterExperiments{}.Ts;
 
 /// The three data sets of a shape, measured from neutral and from the level at rest.
-struct Records {
+struct DataSets {
     std::vector<Vector> width, thrust;
 
-    explicit Records(const std::string& shape) {
-        for (const ThrusterRecord& record : simulate_thruster({}, {}, 1)) {
-            if (!record.name.starts_with(shape)) continue;
-            width.push_back(record.pwm.array() - ThrusterParameters{}.neutral);
-            thrust.push_back(record.force.array() - record.force.head(250).mean());
+    explicit DataSets(const std::string& shape) {
+        for (const ThrusterData& data_set : simulate_thruster({}, {}, 1)) {
+            if (!data_set.name.starts_with(shape)) continue;
+            width.push_back(data_set.pwm.array() - ThrusterParameters{}.neutral);
+            thrust.push_back(data_set.force.array() - data_set.force.head(250).mean());
         }
     }
 };
@@ -131,20 +131,20 @@ nlohmann::json* thruster_statements::record_ = nullptr;
 TEST_F(thruster_statements, delays_and_lags_are_those_of_a_regression) {
     const ThrusterParameters rig;
     for (const std::string shape : {"sine", "square"}) {
-        const Records records(shape);
+        const DataSets data_sets(shape);
         const Vector edges = edges_of(shape);
         std::vector<Vector> roots;
-        for (const Vector& thrust : records.thrust) roots.push_back(root(thrust));
+        for (const Vector& thrust : data_sets.thrust) roots.push_back(root(thrust));
         for (const std::string kind : {"hammerstein", "root"}) {
             const double delay = 1e-3 * number("delay_" + kind + "_" + shape),
                          lag = 1e-3 * number("lag_" + kind + "_" + shape);
-            const std::vector<Vector>& outputs = kind == "root" ? roots : records.thrust;
-            const Regression best = regression(records.width, outputs, edges, delay, lag);
+            const std::vector<Vector>& outputs = kind == "root" ? roots : data_sets.thrust;
+            const Regression best = regression(data_sets.width, outputs, edges, delay, lag);
             for (const double change : {-5e-4, 5e-4})
-                EXPECT_LT(best.left, least_left(records.width, outputs, edges, delay + change, lag))
+                EXPECT_LT(best.left, least_left(data_sets.width, outputs, edges, delay + change, lag))
                     << kind << " from " << shape << ", delay by " << change << " s";
             for (const double change : {-2e-3, 2e-3})
-                EXPECT_LT(best.left, regression(records.width, outputs, edges, delay, lag + change).left)
+                EXPECT_LT(best.left, regression(data_sets.width, outputs, edges, delay, lag + change).left)
                     << kind << " from " << shape << ", lag by " << change << " s";
 
             // What the curve from sines is off, and the fit on the other shape.
@@ -161,7 +161,7 @@ TEST_F(thruster_statements, delays_and_lags_are_those_of_a_regression) {
                             std::max(most, std::abs(curve[i] / thruster_thrust(rig, rig.neutral + edges[i]) - 1) * 100);
                 EXPECT_NEAR(number("curve_off_" + kind + "_" + std::to_string(size)), most, 0.3);
             }
-            const Records others(shape == "sine" ? "square" : "sine");
+            const DataSets others(shape == "sine" ? "square" : "sine");
             std::vector<Vector> errors, swings;
             for (std::size_t i = 0; i < others.width.size(); ++i) {
                 const Vector y = below_8_hz(others.thrust[i]);
@@ -176,15 +176,15 @@ TEST_F(thruster_statements, delays_and_lags_are_those_of_a_regression) {
 }
 
 TEST_F(thruster_statements, a_filter_on_one_side_becomes_a_part_of_the_delay) {
-    const Records records("square");
+    const DataSets data_sets("square");
     const Vector edges = edges_of("square");
     std::vector<Vector> filtered;
-    for (const Vector& thrust : records.thrust) filtered.push_back(root(below_8_hz(thrust)));
+    for (const Vector& thrust : data_sets.thrust) filtered.push_back(root(below_8_hz(thrust)));
     // The best delay by regression, lags on a grid.
     double best = 0, least = INFINITY;
     for (int ms = 26; ms <= 50; ms += 2)
         for (int lag = 50; lag <= 80; lag += 5) {
-            const double left = regression(records.width, filtered, edges, 1e-3 * ms, 1e-3 * lag).left;
+            const double left = regression(data_sets.width, filtered, edges, 1e-3 * ms, 1e-3 * lag).left;
             if (left < least) {
                 least = left;
                 best = ms;

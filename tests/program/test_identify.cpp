@@ -15,7 +15,7 @@ using testing::IsEmpty;
 using testing::StartsWith;
 
 /// Data of 2/(s^2 + 4s + 3) (x) and (s + 2)/(s^2 + 0.8s + 4) (theta).
-constexpr const char* kRecords = R"lua(
+constexpr const char* kDataSets = R"lua(
 local u, Ts = prbs(7, 8), 0.05
 local t = linspace(0, (#u - 1)*Ts, #u)
 local x, theta = lsim(tf({2}, {1, 4, 3}), u, Ts), lsim(tf({1, 2}, {1, 0.8, 4}), u, Ts)
@@ -26,7 +26,7 @@ save_csv("stated.csv", {u = u, x = x}, {Ts = Ts})
 class identify : public testing::Test {
   protected:
     void SetUp() override {
-        bench_.write("make.lua", kRecords);
+        bench_.write("make.lua", kDataSets);
         const ChildResult made = bench_.dynlab({"run", "make.lua"});
         ASSERT_EQ(made.exit_code, 0) << made.error_output;
     }

@@ -53,7 +53,7 @@ struct Signals {
     Vector u, y;
 };
 
-Signals record(double noise) {
+Signals simulated_data(double noise) {
     const Vector u = random_levels(600, 4, 3);
     const PolynomialModel model(PolynomialOrders::output_error({2}, {2}, {1}), Vector{{-1.5, 0.7, 1, 0.5}}, 1);
     return {u, model_output(model, u, noise * RandomStream(1).normal(600))};
@@ -76,14 +76,14 @@ INSTANTIATE_TEST_SUITE_P(methods, discrete_properties, testing::ValuesIn(kMethod
                          [](const auto& instance) { return std::string(instance.param.name); });
 
 TEST_P(discrete_properties, the_unit_of_time_has_no_say) {  // oracle: invariance
-    const auto [u, y] = record(0.5);
+    const auto [u, y] = simulated_data(0.5);
     const auto one = fit(data_of(u, y)), micro = fit(data_of(u, y, 1e-6));
     EXPECT_EQ(one.theta, micro.theta);
     EXPECT_EQ(one.std, micro.std);
 }
 
 TEST_P(discrete_properties, a_scaled_output_scales_b) {  // oracle: invariance
-    const auto [u, y] = record(0.5);
+    const auto [u, y] = simulated_data(0.5);
     const auto one = fit(data_of(u, y)), large = fit(data_of(u, 1e4 * y));
     Vector expected = one.theta, errors = one.std;
     expected.segment(2, 2) *= 1e4;
@@ -94,7 +94,7 @@ TEST_P(discrete_properties, a_scaled_output_scales_b) {  // oracle: invariance
 }
 
 TEST_P(discrete_properties, a_scaled_input_scales_b_back) {  // oracle: invariance
-    const auto [u, y] = record(0.5);
+    const auto [u, y] = simulated_data(0.5);
     const auto one = fit(data_of(u, y)), large = fit(data_of(-1e3 * u, y));
     Vector expected = one.theta;
     expected.segment(2, 2) /= -1e3;
@@ -102,7 +102,7 @@ TEST_P(discrete_properties, a_scaled_input_scales_b_back) {  // oracle: invarian
 }
 
 TEST_P(discrete_properties, a_later_output_is_a_longer_delay) {  // oracle: invariance, from rest
-    const auto [u, y] = record(0.5);
+    const auto [u, y] = simulated_data(0.5);
     Vector late = Vector::Zero(600);
     late.tail(595) = y.head(595);
     const auto shifted = fit(data_of(u, late), 6);
@@ -112,7 +112,7 @@ TEST_P(discrete_properties, a_later_output_is_a_longer_delay) {  // oracle: inva
 }
 
 TEST_P(discrete_properties, order_of_experiments_does_not_matter) {  // oracle: invariance
-    const auto [u, y] = record(0.5);
+    const auto [u, y] = simulated_data(0.5);
     const IdData one = data_of(u, y), other = data_of(u.head(400), 1.1 * y.head(400));
     const auto a = fit(IdData::merge({one, other})), b = fit(IdData::merge({other, one}));
     EXPECT_LT(worst_relative(a.theta, b.theta), 1e-8);
@@ -121,7 +121,7 @@ TEST_P(discrete_properties, order_of_experiments_does_not_matter) {  // oracle: 
 
 // Oracle: invariance. Units change the gain only, and the order of experiments nothing.
 TEST(subspace_properties, units_and_order_of_experiments_have_no_say) {
-    const auto [u, y] = record(0.5);
+    const auto [u, y] = simulated_data(0.5);
     Matrix two(600, 2);
     two << y, divided_by(Vector{{1, -0.6}}, u) + 0.2 * RandomStream(2).normal(600);
     for (const SubspaceWeighting weighting :

@@ -51,7 +51,7 @@ TEST(grey_properties, units_have_no_say) {
 
 // Oracle: invariance. For an equation without time, data that begin later are the same data.
 TEST(grey_properties, when_a_record_begins_has_no_say) {
-    IdData data = course_record(0.2, 3);
+    IdData data = course_system_data(0.2, 3);
     const GreyModel model = first_order(1, 1);
     const GreyFit one = greyest(data, model);
     data.experiments[0].start_time = 1000;

@@ -39,7 +39,7 @@ class loop_properties : public testing::TestWithParam<std::size_t> {
 };
 
 TEST_P(loop_properties, other_units_of_the_output_scale_the_numerator) {
-    IdData data = loop_record(0.05, 3);
+    IdData data = loop_data(0.05, 3);
     const Vector theta = estimate(data, loop_controller());
     data.experiments.front().y *= 1000;
     data.experiments.front().r *= 1000;
@@ -49,7 +49,7 @@ TEST_P(loop_properties, other_units_of_the_output_scale_the_numerator) {
 }
 
 TEST_P(loop_properties, another_unit_of_time_scales_the_coefficients) {
-    IdData data = loop_record(0.05, 3);
+    IdData data = loop_data(0.05, 3);
     const Vector theta = estimate(data, loop_controller());
     data.Ts *= 60;
     const LoopController slower{TransferFunction(loop_controller().C.num(), loop_controller().C.den(), 60 * kLoopTs),

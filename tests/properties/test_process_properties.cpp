@@ -40,7 +40,7 @@ ProcessModel model_of(const std::string& structure) {
     throw std::logic_error("no such structure");
 }
 
-IdData record(const ProcessModel& model, std::uint32_t seed) {
+IdData simulated_data(const ProcessModel& model, std::uint32_t seed) {
     const Vector u = levels(500);
     const Vector x = lsim(model.transfer_function(), u, kTs);
     return IdData(Matrix(x + 0.02 * RandomStream(seed).normal(500)), Matrix(u), kTs);
@@ -69,7 +69,7 @@ class process_properties : public testing::TestWithParam<const char*> {
   protected:
     const ProcessModel model_ = model_of(GetParam());
     const ProcessStructure& structure_ = model_.structure;
-    const IdData data_ = record(model_, 21);
+    const IdData data_ = simulated_data(model_, 21);
     const Matrix &y_ = data_.experiments[0].y, &u_ = data_.experiments[0].u;
 };
 
@@ -87,7 +87,7 @@ TEST_P(process_properties, units_of_input_and_output_scale_the_gain) {  // oracl
 }
 
 TEST_P(process_properties, order_of_experiments_does_not_matter) {  // oracle: invariance
-    const IdData other = record(model_, 22).range(1, 400);
+    const IdData other = simulated_data(model_, 22).range(1, 400);
     const auto a = procsrivc(IdData::merge({data_, other}), structure_, tight()),
                b = procsrivc(IdData::merge({other, data_}), structure_, tight());
     expect_grown(a, b, growth(structure_, 1, 1));

@@ -24,14 +24,14 @@ class recursive_properties : public testing::TestWithParam<std::size_t> {
 };
 
 TEST_P(recursive_properties, other_units_of_the_output_scale_the_numerator) {
-    IdData data = course_record(0.05, 3);
+    IdData data = course_system_data(0.05, 3);
     const Vector theta = estimate(data, recursive(3));
     data.experiments.front().y *= 1000;
     EXPECT_LT(relative_difference(estimate(data, recursive(3)), theta.cwiseProduct(values({1, 1, 1000}))), 1e-6);
 }
 
 TEST_P(recursive_properties, another_unit_of_time_scales_the_coefficients) {
-    IdData data = course_record(0.05, 3);
+    IdData data = course_system_data(0.05, 3);
     const Vector theta = estimate(data, recursive(3));
     data.Ts *= 60;
     EXPECT_LT(relative_difference(estimate(data, recursive(3.0 / 60)), theta.cwiseQuotient(values({60, 3600, 3600}))),
@@ -41,7 +41,7 @@ TEST_P(recursive_properties, another_unit_of_time_scales_the_coefficients) {
 // 5/(cut-off x Ts), the number of samples in a block for the color of the errors, is whole except for rounding.
 TEST_P(recursive_properties, another_unit_of_time_scales_the_standard_errors) {
     for (const double unit : {1e6, 1e-6, 7.0, 1.0 / 3}) {
-        IdData data = course_record(0.05, 3);
+        IdData data = course_system_data(0.05, 3);
         data.Ts = 0.05;
         const Vector std = kMethods[GetParam()](data, kStructure, recursive(4)).std;
         data.Ts *= unit;
@@ -52,7 +52,7 @@ TEST_P(recursive_properties, another_unit_of_time_scales_the_standard_errors) {
 }
 
 TEST_P(recursive_properties, what_comes_later_changes_no_history) {
-    const IdData data = course_record(0.05, 3);
+    const IdData data = course_system_data(0.05, 3);
     RecursiveOptions options = recursive(3);
     options.history_points = 10'000;
     const auto whole = kMethods[GetParam()](data, kStructure, options).history;

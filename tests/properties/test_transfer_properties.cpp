@@ -69,7 +69,7 @@ class transfer_properties : public testing::TestWithParam<std::size_t> {
     Fit estimate(const IdData& data, double time_scale = 1, double delay = 0) const {
         return kMethods[GetParam()].second(data, TransferStructure::single(2, 0, delay), time_scale);
     }
-    const IdData data_ = course_record(0.2, 21);
+    const IdData data_ = course_system_data(0.2, 21);
     const Matrix &y_ = data_.experiments[0].y, &u_ = data_.experiments[0].u;
 };
 
@@ -122,7 +122,7 @@ TEST_P(transfer_properties, delays_of_whole_samples_equal_shifted_inputs) {
 }
 
 TEST_P(transfer_properties, order_of_experiments_does_not_matter) {  // oracle: invariance
-    const IdData other = course_record(0.3, 22);
+    const IdData other = course_system_data(0.3, 22);
     const Vector a = estimate(IdData::merge({data_, other})).theta, b = estimate(IdData::merge({other, data_})).theta;
     EXPECT_LT(relative_difference(a, b), 1e-7);
 }

@@ -36,13 +36,13 @@ TEST(coe_reference, output_error_rows_match_the_long_double_program) {  // oracl
         if (method.find("oe") == std::string::npos) continue;
         SCOPED_TRACE(set);
         const bool noise_free = set.find("noisefree") != std::string::npos;
-        const auto found = coe(reference_record(set, 0.01), structure_of(set), exact());
+        const auto found = coe(reference_data(set, 0.01), structure_of(set), exact());
         EXPECT_LT(relative_difference(found.theta, numbers(row[2])), noise_free ? 1e-9 : 1e-7);
         ++compared;
         if (noise_free) continue;
         EXPECT_EQ(found.termination, Termination::kConverged);
         EXPECT_LT(relative_difference(found.std, numbers(row[3])), 1e-7);
-        const double N = static_cast<double>(reference_record(set, 0.01).sample_count());
+        const double N = static_cast<double>(reference_data(set, 0.01).sample_count());
         EXPECT_NEAR(found.loss * N / std::stod(row[4].get<std::string>()), 1, 1e-10);
     }
     EXPECT_EQ(compared, 5);
@@ -58,7 +58,7 @@ TEST(coe_reference, output_error_rows_match_two_programs) {  // oracle: referenc
     EXPECT_EQ(expected.size(), 3u);
     for (const auto& [set, values] : expected) {
         SCOPED_TRACE(set);
-        const auto found = coe(reference_record(set, 0.01), structure_of(set), exact());
+        const auto found = coe(reference_data(set, 0.01), structure_of(set), exact());
         ASSERT_EQ(static_cast<Index>(values.first.size()), found.theta.size());
         EXPECT_LT(relative_difference(found.theta, Vector::Map(values.first.data(), found.theta.size())), 1e-7);
         EXPECT_LT(relative_difference(found.std, Vector::Map(values.second.data(), found.std.size())), 1e-7);
@@ -67,7 +67,7 @@ TEST(coe_reference, output_error_rows_match_two_programs) {  // oracle: referenc
 
 TEST(coe_reference, equals_srivc) {  // oracle: second route, the fixed point of the refined instruments
     for (const std::string set : {"sys2_s0.2_seed1", "sys2_s0.4_seed1", "rg_snr10_seed1"}) {
-        const IdData data = reference_record(set, 0.01);
+        const IdData data = reference_data(set, 0.01);
         EXPECT_LT(relative_difference(coe(data, structure_of(set), exact()).theta,
                                       srivc(data, structure_of(set), exact()).theta),
                   1e-8)

@@ -20,7 +20,7 @@ Vector twin(const std::string& name) {
     return Vector::Map(values.data(), static_cast<Index>(values.size()));
 }
 
-IdData record(std::initializer_list<const char*> outputs) {
+IdData simulated_data(std::initializer_list<const char*> outputs) {
     auto columns = reference_columns("learning_record.csv");
     const auto N = static_cast<Index>(columns["u"].size());
     Matrix y(N, static_cast<Index>(outputs.size()));
@@ -50,7 +50,7 @@ void expect_twin(const NarxFit& found, const IdData& data, const std::string& la
 }
 
 TEST(learning_reference, narx_equals_its_twin) {
-    const IdData data = record({"y1"});
+    const IdData data = simulated_data({"y1"});
     const NarxLags lags{2, {2}, {1}};
     NarxOptions six;
     six.terms = 6;
@@ -72,7 +72,7 @@ void expect_twin(const DmdcFit& found, const std::string& label) {
 }
 
 TEST(learning_reference, dmdc_equals_its_twin) {
-    const IdData data = record({"y1", "y2"});
+    const IdData data = simulated_data({"y1", "y2"});
     expect_twin(dmdc(data, {2, 1}), "dmdc1");
     expect_twin(dmdc(data, {4, 3}), "dmdc3");
 }

@@ -43,7 +43,7 @@ TransferStructure structure_of(const std::string& set) {
 }
 
 Fit estimate(const std::string& set, const std::string& method, double lambda) {
-    const IdData data = reference_record(set, 0.01);
+    const IdData data = reference_data(set, 0.01);
     SvfOptions options;
     options.lambda = lambda;
     if (method.find("yzoh") != std::string::npos) options.hold_y = Hold::kZoh;

@@ -133,7 +133,7 @@ const std::map<std::string, Calls>& dynamic_methods() {
     return kMethods;
 }
 
-const std::string kRecord =
+const std::string kDataSet =
     "rng(1)\n"
     "local u = prbs(6, 8)\n"
     "local N = #u\n"
@@ -144,7 +144,7 @@ const std::string kRecord =
 
 /// The error that stops the statements after the data set, or all their output.
 std::string said(const std::string& code) {
-    return printed(kRecord + code);
+    return printed(kDataSet + code);
 }
 
 TEST(bad_input, the_table_holds_every_method) {
@@ -168,8 +168,10 @@ TEST(bad_input, data_are_checked_when_they_are_made) {
         {"iddata(y, u, 0)", "the sampling time must be a positive number of seconds, but it is 0"},
         {"iddata(y, u, -1)", "the sampling time must be a positive number of seconds, but it is -1"},
         {"iddata(y, u, 0/0)", "the sampling time must be a positive number of seconds, but it is NaN"},
-        {"iddata({1, 2, 3}, {1, 0, 1}, nil, {SamplingInstants = {0, 2, 1}})", "instant 3 is 1 and the previous instant is 2"},
-        {"iddata({1, 2, 3}, {1, 0, 1}, nil, {SamplingInstants = {0, 2, 2}})", "instant 3 is 2 and the previous instant is 2"},
+        {"iddata({1, 2, 3}, {1, 0, 1}, nil, {SamplingInstants = {0, 2, 1}})",
+         "instant 3 is 1 and the previous instant is 2"},
+        {"iddata({1, 2, 3}, {1, 0, 1}, nil, {SamplingInstants = {0, 2, 2}})",
+         "instant 3 is 2 and the previous instant is 2"},
         {"iddata({1, 2, 3}, {1, 0, 1}, nil, {SamplingInstants = {0, 2}})", "3 samples but the time vector has 2"},
         {"iddata({1, 2}, {1}, 1)", "the output has 2 samples but the input has 1"},
         {"iddata({}, {}, 1)", "must have rows or columns, but the table is empty"},

@@ -70,7 +70,7 @@ void expect_french_text(const std::string& code) {
 }
 
 /// Data of two poles and a delay with white noise at the output: `d`, and `s` with ten times the noise.
-const std::string kRecord = R"(rng(3)
+const std::string kDataSet = R"(rng(3)
 local u = prbs(6, 12)
 local t = range(0, 0.1, 0.1*(#u - 1))
 local G0 = tf({2}, {1, 1.2, 4}, {IODelay = 0.3})
@@ -118,7 +118,7 @@ TEST(messages_in_french, of_estimators_are_french) {
                                  "sindy(d, {threshold = 0.3})",
                                  "sindy(d, {weak = true})",
                                  "dmdc(s, {delays = 3})"};
-    for (const char* call : calls) expect_french_text(kRecord + "say(" + call + ")");
+    for (const char* call : calls) expect_french_text(kDataSet + "say(" + call + ")");
 }
 
 TEST(messages_in_french, of_records_are_french) {
@@ -144,7 +144,7 @@ TEST(messages_in_french, of_step_tests_and_regressions_are_french) {
 }
 
 TEST(messages_in_french, of_validation_are_french) {
-    expect_french_text(kRecord + R"(
+    expect_french_text(kDataSet + R"(
 resid(d, G0)
 resid(d, tf({2}, {1, 1.2, 4}))
 resid(d, tf({2}, {1, 1}))
@@ -166,7 +166,7 @@ crossvalidate(d, function(part) return srivc(part, {1, 2, 3}) end, {folds = 3})
 }
 
 TEST(messages_in_french, of_searches_and_studies_are_french) {
-    expect_french_text(kRecord + R"(
+    expect_french_text(kDataSet + R"(
 local V = srivcstruc(d, {poles = {1, 3}, zeros = {0, 1}})
 print(V.recommendation)
 for _, criterion in ipairs{"recommended", "RT2", "YIC", "AIC", "BIC", "FPE", "fit"} do selcstruc(V, criterion) end
@@ -182,7 +182,7 @@ print(arxstruc(d:range(1, 400), {na = {1, 2}, nb = {1, 2}, nk = {1, 3}, validate
 }
 
 TEST(messages_in_french, of_intervals_are_french) {
-    expect_french_text(kRecord + R"(
+    expect_french_text(kDataSet + R"(
 local G = procsrivc(s, "P2UD")
 profile(G, s, "Td", {points = 7})
 bootstrap(G, s, {runs = 20})
@@ -192,7 +192,7 @@ bootstrap(procsrivc(d, "P1"), d, {runs = 20, kind = "parametric"})
 }
 
 TEST(messages_in_french, of_responses_are_french) {
-    expect_french_text(kRecord + R"(
+    expect_french_text(kDataSet + R"(
 impulseest(d)
 impulseest(d, {lags = 10, smooth = false})
 impulseest(iddata(randn(#u), u, 0.1))
@@ -212,8 +212,8 @@ TEST(messages_in_french, of_advice_are_french) {
                           message_text(issue.message, {catalog_of("fr"), option_name}));
         }
     };
-    for (const CorpusKind& kind : faulty_kinds()) expect_advice(kind.record(1));
-    expect_french_text(kRecord + R"(
+    for (const CorpusKind& kind : faulty_kinds()) expect_advice(kind.simulated_data(1));
+    expect_french_text(kDataSet + R"(
 local function with(change) local y = vector(x + 0.02*randn(#u)) change(y) return y end
 advice(iddata(with(function(y) y[100] = 30 y[101] = 31 end), u, 0.1))
 advice(iddata(x, u*0 + 1, 0.1))
@@ -234,20 +234,20 @@ advice(iddata(d.y, u, nil, {SamplingInstants = late}))
 }
 
 TEST(messages_in_french, are_as_written_by_hand) {
-    EXPECT_THAT(text_in_language("fr", kRecord + "print(fit(d, G0)) resid(d, G0)"), HasSubstr("L'erreur de sortie"));
-    const std::string order = text_in_language("fr", kRecord + "srivcstruc(d, {poles = {1, 2}, zeros = {0, 1}})");
+    EXPECT_THAT(text_in_language("fr", kDataSet + "print(fit(d, G0)) resid(d, G0)"), HasSubstr("L'erreur de sortie"));
+    const std::string order = text_in_language("fr", kDataSet + "srivcstruc(d, {poles = {1, 2}, zeros = {0, 1}})");
     EXPECT_THAT(order, testing::AllOf(HasSubstr("Structure recommandée : 2 pôles et "), HasSubstr(" (R_T^2 = 0,9")));
     EXPECT_THAT(order, HasSubstr("pôles zéros"));
     EXPECT_THAT(text_in_language("fr", "present(tf({2}, {1, 0.6, 1.7}))"), HasSubstr("  -0,3 + 1,2689i "));
     EXPECT_THAT(text_in_language("fr", "print(zeros(100), zeros(20, 20))"),
                 testing::AllOf(HasSubstr("] (100 valeurs)"), HasSubstr("... (matrice 20 x 20)")));
-    EXPECT_THAT(text_in_language("fr", kRecord + "resid(d, G0)"), HasSubstr("y1\u202F: L'erreur"));
+    EXPECT_THAT(text_in_language("fr", kDataSet + "resid(d, G0)"), HasSubstr("y1\u202F: L'erreur"));
 }
 
 TEST(messages_in_french, of_scripts_own_stay_and_english_scripts_are_english) {
     EXPECT_EQ(text_in_language("fr", "print('The model is unstable.')"), "The model is unstable.\n");
-    EXPECT_THAT(text_in_language("en", kRecord + "resid(d, G0)"), HasSubstr("The output error is"));
-    EXPECT_THAT(text_in_language("fr", kRecord + "resid(d, G0)"), Not(HasSubstr("error")));
+    EXPECT_THAT(text_in_language("en", kDataSet + "resid(d, G0)"), HasSubstr("The output error is"));
+    EXPECT_THAT(text_in_language("fr", kDataSet + "resid(d, G0)"), Not(HasSubstr("error")));
 }
 
 }  // namespace test_messages_in_french

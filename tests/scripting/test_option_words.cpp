@@ -21,7 +21,7 @@ TEST(option_words, options_in_messages_become_those_of_lua) {  // oracle: defini
     EXPECT_EQ(message_text(message, {nullptr, option_name}), "raise TdMax = 2, or `foreign`");
 }
 
-const std::string kRecord =
+const std::string kDataSet =
     "rng(1) local u = prbs(7, 4)\n"
     "local y = lsim(tf({2}, {1, 4, 3}, {IODelay = 0.5}), u, 0.05) + 0.01*randn(#u, 1)\n"
     "local d = iddata(y, u, 0.05)\n";
@@ -49,7 +49,7 @@ TEST(option_words, errors_name_the_options_of_scripts) {
              {"hammerstein(d, 2, 0, {Bins = 0})", "option 'Bins' must be between 1 and 1000, but 0 was given"},
              {"hammerstein(d, 2, 0, {Breakpoints = {2, 1}})", "Breakpoints must increase"},
              {"n4sid(d, 3, {BlockRows = 2})", "BlockRows must be greater than the order"}}) {
-        const std::string error = dynlab::test::error_of(kRecord + call);
+        const std::string error = dynlab::test::error_of(kDataSet + call);
         EXPECT_THAT(error, HasSubstr(said)) << call;
         EXPECT_THAT(error, testing::Not(HasSubstr("`"))) << call;
     }
@@ -63,7 +63,7 @@ TEST(option_words, messages_name_the_options_of_scripts) {
              {"coe(d, {1, 2, 0}, {MaxIter = 1})", "did not converge within MaxIter = 1 iterations"},
              {"oe(d, {2, 2, 1}, {MaxIter = 0})", "did not converge within MaxIter = 0 iterations"},
              {"tfcoe(d, 1, 1, {TdMax = 1})", "Fix the delay with IODelay"}}) {
-        const std::string message = dynlab::test::printed(kRecord + "print(" + call + ".report.message)");
+        const std::string message = dynlab::test::printed(kDataSet + "print(" + call + ".report.message)");
         EXPECT_THAT(message, HasSubstr(said)) << call;
         EXPECT_THAT(message, testing::Not(HasSubstr("`"))) << call;
     }
@@ -76,7 +76,7 @@ TEST(option_words, written_default_of_a_choice_changes_nothing) {
         const auto fit_with = [&](const std::string& choice) {
             return call + ", {" + option + " = '" + choice + "'}).report.fit_percent";
         };
-        EXPECT_EQ(dynlab::test::printed(kRecord + "local fit = " + call + ").report.fit_percent\nprint(fit == " +
+        EXPECT_EQ(dynlab::test::printed(kDataSet + "local fit = " + call + ").report.fit_percent\nprint(fit == " +
                                         fit_with(initial) + ", fit == " + fit_with(other) + ")"),
                   "true\tfalse\n")
             << call;

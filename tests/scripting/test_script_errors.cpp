@@ -70,14 +70,14 @@ TEST(script_errors, lead_from_the_toolboxes_functions_to_those_here) {
 }
 
 TEST(script_errors, name_the_called_method_once) {
-    const std::string record = "local u = ones(50)\nlocal d = iddata(0.5*u, u, 0.1)\n";
+    const std::string data_set = "local u = ones(50)\nlocal d = iddata(0.5*u, u, 0.1)\n";
     for (const auto& [method, call] : {std::pair{"lsgpmf", "lsgpmf(d, {2, 1, 0}, 3)"},
                                        {"ivsvf", "ivsvf(d, {2, 1, 0}, 3)"},
                                        {"tfsrivc", "tfsrivc(d, 2, 1, {Offset = 'none', InitialState = 'none'})"},
                                        {"tfcoe", "tfcoe(d, 2, 1, {Offset = 'none', InitialState = 'none'})"}})
-        EXPECT_EQ(error_of(record + call).find("lesson.lua:3: " + std::string(method) + ": the input never changes"),
+        EXPECT_EQ(error_of(data_set + call).find("lesson.lua:3: " + std::string(method) + ": the input never changes"),
                   0u)
-            << error_of(record + call);
+            << error_of(data_set + call);
     EXPECT_EQ(error_of("local u = prbs(3, 1)\narx(iddata(u, u, 1), {3, 3, 1})").find("lesson.lua:2: arx needs more"),
               0u)
         << error_of("local u = prbs(3, 1)\narx(iddata(u, u, 1), {3, 3, 1})");
@@ -204,11 +204,13 @@ TEST(script_errors, say_what_habits_of_other_languages_lead_to) {
          "lesson.lua:1: arithmetic with a string is not possible; use two dots to join strings and numbers: \"a = \" "
          ".. x"},
         {"local d = iddata(randn(9), randn(9), 1)\nprint(#d)",
-         "lesson.lua:2: the variable 'd' is an iddata object, so the operator # cannot count its elements; data.N is the "
+         "lesson.lua:2: the variable 'd' is an iddata object, so the operator # cannot count its elements; data.N is "
+         "the "
          "number of "
          "samples"},
         {"local d = iddata(randn(9), randn(9), 1)\nd.split(0.6)",
-         "lesson.lua:2: split: argument 1 (data) must be an iddata object, but 0.6 was given; a method is called with a "
+         "lesson.lua:2: split: argument 1 (data) must be an iddata object, but 0.6 was given; a method is called with "
+         "a "
          "colon: "
          "object:split(...)"},
         {"randn(20):range(10)", "lesson.lua:1: range: argument 2 (last) is missing; it must be a whole number"},
@@ -255,7 +257,7 @@ TEST(script_errors, name_argument_wanted_and_given) {
 }
 
 TEST(script_errors, count_one_in_the_singular) {
-    const std::string record = "local d = iddata({1, 2, 4}, {1, 0, 1}, 1)\n";
+    const std::string data_set = "local d = iddata({1, 2, 4}, {1, 0, 1}, 1)\n";
     check({
         {"lsim(tf({1, 0}, {2}), {1, 2}, 1)",
          "lesson.lua:1: lsim: the transfer function has 1 zero but only 0 poles; an improper model cannot be "
@@ -267,11 +269,11 @@ TEST(script_errors, count_one_in_the_singular) {
         {"report.table('t', {{'a', 'b'}, {1}})", "lesson.lua:1: report.table: row 2 has 1 cell, but the header has 2"},
         {"local v = vector{5}\nprint(v[2])", "lesson.lua:2: v[2] does not exist: v has only the element 1"},
         {"zeros(1, 2):row(2)", "lesson.lua:1: row 2 does not exist: there is only 1"},
-        {record + "d:experiment(2)", "lesson.lua:2: experiment 2 does not exist: there is only 1"},
-        {record + "srivc(d, {2})",
+        {data_set + "d:experiment(2)", "lesson.lua:2: experiment 2 does not exist: there is only 1"},
+        {data_set + "srivc(d, {2})",
          "lesson.lua:2: srivc: argument 2 (orders) must be {nb, nf, nk} (nb: coefficients of B; nf: poles; nk: samples "
          "of delay), but it has 1 entry"},
-        {record + "merge(d, iddata({1, 2}, matrix{{1, 2}, {2, 1}}, 1))",
+        {data_set + "merge(d, iddata({1, 2}, matrix{{1, 2}, {2, 1}}, 1))",
          "lesson.lua:2: merge: part 2 has 1 output and 2 inputs, but the first has 1 and 1"},
     });
 }

@@ -158,16 +158,16 @@ TEST(script_estimators, srivc_reports_the_diagnostics_of_the_cpp_function) {
 
 // Oracle: the constant that was added to the data.
 TEST(script_estimators, message_names_the_start_that_is_chosen) {
-    const std::string record =
+    const std::string data_set =
         "rng(1)\nlocal u = prbs(7, 8)\n"
         "local y = lsim(tf({2}, {1, 4, 3}), u, 0.05) + 0.05*randn(#u) + 3\nlocal data = iddata(y, u, 0.05)\n";
-    EXPECT_THAT(printed(record + "print(srivc(data, {1, 2, 0}).report.message)"),
+    EXPECT_THAT(printed(data_set + "print(srivc(data, {1, 2, 0}).report.message)"),
                 HasSubstr("from rest at zero input, with an estimated offset"));
-    EXPECT_EQ(printed(record + "local none = {InitialState = \"none\", Offset = \"none\"}\n"
-                               "local zero = {InitialState = \"zero\", Offset = \"none\"}\n"
-                               "print(srivc(data, {1, 2, 0}).report.fit_percent > 75, "
-                               "srivc(data, {1, 2, 0}, none).report.fit_percent < 50, "
-                               "srivc(data, {1, 2, 0}, none).param[1] == srivc(data, {1, 2, 0}, zero).param[1])"),
+    EXPECT_EQ(printed(data_set + "local none = {InitialState = \"none\", Offset = \"none\"}\n"
+                                 "local zero = {InitialState = \"zero\", Offset = \"none\"}\n"
+                                 "print(srivc(data, {1, 2, 0}).report.fit_percent > 75, "
+                                 "srivc(data, {1, 2, 0}, none).report.fit_percent < 50, "
+                                 "srivc(data, {1, 2, 0}, none).param[1] == srivc(data, {1, 2, 0}, zero).param[1])"),
               "true\ttrue\ttrue\n");
 }
 

@@ -72,13 +72,13 @@ TEST(script_frequency, spectral_estimates_are_responses) {
 }
 
 TEST(script_frequency, spectral_estimates_are_quiet_when_asked) {  // oracle: the same call that is not
-    const std::string record = "local u = prbs(7, 4)\nlocal d = iddata(lsim(tf({2}, {1, 4, 3}), u, 0.05), u, 0.05)\n";
+    const std::string data_set = "local u = prbs(7, 4)\nlocal d = iddata(lsim(tf({2}, {1, 4, 3}), u, 0.05), u, 0.05)\n";
     for (const char* method : {"spa", "etfe"}) {
-        const std::string quiet = record + "local fig, F = " + method + "(d, {quiet = true})\n";
+        const std::string quiet = data_set + "local fig, F = " + method + "(d, {quiet = true})\n";
         EXPECT_TRUE(run(quiet).figures.empty()) << method;
-        EXPECT_FALSE(run(record + method + "(d)").figures.empty()) << method;
+        EXPECT_FALSE(run(data_set + method + "(d)").figures.empty()) << method;
         EXPECT_EQ(printed(quiet + "local _, G = " + method + "(d)\nprint(fig, F.response[9].re == G.response[9].re)"),
-                  printed(record + method + "(d)") + "nil\ttrue\n");
+                  printed(data_set + method + "(d)") + "nil\ttrue\n");
     }
 }
 

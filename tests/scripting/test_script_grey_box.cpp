@@ -13,7 +13,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 /// Data of 2/(s^2 + 0.8 s + 3) with noise, and a model of it.
-const std::string kRecord = R"(
+const std::string kDataSet = R"(
 rng(1)
 local u = prbs(5, 8)
 local data = iddata(lsim(tf({2}, {1, 0.8, 3}), u, 0.1) + 0.1*randn(#u), u, 0.1)
@@ -22,7 +22,7 @@ local function f(t, x, u, p) return {x[2], p.b*u - p.a2*x[1] - p.a1*x[2]} end
 )";
 
 TEST(script_grey_box, of_a_linear_model_is_coe_in_every_form) {  // oracle: coe
-    const std::string text = printed(kRecord + R"(
+    const std::string text = printed(kDataSet + R"(
 local wanted = coe(data, {1, 2, 0}, {Tol = 1e-10, InitialState = "zero", Offset = "none"})
 local function says(m)
     local G = greyest(data, m, {Tol = 1e-10, RelTol = 1e-11})
@@ -39,19 +39,19 @@ print(G.param.a1 == G.param[1], G.a2 == G.param[2], G.std.b == G.std[3], #G.para
 }
 
 TEST(script_grey_box, of_state_space_form_is_a_linear_model) {  // oracle: gain b/a2 and poles of the estimate
-    const std::string text = printed(kRecord + R"(
+    const std::string text = printed(kDataSet + R"(
 local G = greyest(data, idgrey(function(p) return {{0, 1}, {-p.a2, -p.a1}}, {{0}, {p.b}}, {{1, 0}} end, names, {states = 2}))
 print(abs(dcgain(G) - G.b/G.a2) < 1e-12, abs(damp(G)[1] - G.a2^0.5) < 1e-12, #lsim(G, u, 0.1) == #u)
 )");
     EXPECT_EQ(text, "true\ttrue\ttrue\n");
-    EXPECT_THAT(error_of(kRecord + R"(
+    EXPECT_THAT(error_of(kDataSet + R"(
 local G = greyest(data, idgrey(function(t, x, u, p) return {x[2], p.b*u - p.a2*sin(x[1]) - p.a1*x[2]} end, names, {states = 2}))
 bode(G))"),
                 HasSubstr("must be a linear model, but this grey-box model is not linear"));
 }
 
 TEST(script_grey_box, of_functions_that_cannot_be_followed_is_the_same) {  // oracle: the followed one
-    const std::string text = printed(kRecord + R"(
+    const std::string text = printed(kDataSet + R"(
 local traced = greyest(data, idgrey(f, names, {states = 2}))
 local m = idgrey(function(t, x, u, p)
     if x[1] > 0 then return {x[2], p.b*u - p.a2*x[1] - p.a1*x[2]} end
@@ -63,12 +63,12 @@ print(max(abs(called.param - traced.param)) < 1e-5, max(abs(called.std - traced.
     EXPECT_THAT(text, HasSubstr("about a hundred times as long"));
     EXPECT_THAT(text, HasSubstr("where(c, a, b), which returns a if c > 0"));
     EXPECT_THAT(text, HasSubstr("true\ttrue\n"));
-    EXPECT_THAT(printed(kRecord + R"(
+    EXPECT_THAT(printed(kDataSet + R"(
 local m = idgrey(function(t, x, u, p) return {x[2], p.b*u - p.a2*math.sin(x[1]) - p.a1*x[2]} end, names, {states = 2})
 )"),
                 HasSubstr("math.sin accepts only numbers, so write sin(...)"));
     // A decision that Lua makes in silence: == of two kinds of values is false.
-    EXPECT_THAT(printed(kRecord + R"(
+    EXPECT_THAT(printed(kDataSet + R"(
 local m = idgrey(function(t, x, u, p)
     if u == 0 then return {x[2], 0} end
     return {x[2], p.b*u - p.a2*x[1] - p.a1*x[2]}
@@ -108,7 +108,7 @@ print(by_name)
 }
 
 TEST(script_grey_box, is_compared_presented_and_tested) {  // oracle: definition
-    const std::string text = printed(kRecord + R"(
+    const std::string text = printed(kDataSet + R"(
 local G = greyest(data, idgrey(f, names, {states = 2}))
 present(G)
 local _, tests = resid(data, G, {quiet = true})
@@ -119,7 +119,7 @@ print(tests.white, compare(data, G) ~= nil, #G.report.outputs[1] == #u, G.report
 }
 
 TEST(script_grey_box, refuses_in_words) {  // oracle: the mistakes written here
-    const auto refusal = [](const std::string& call) { return error_of(kRecord + call); };
+    const auto refusal = [](const std::string& call) { return error_of(kDataSet + call); };
     EXPECT_THAT(refusal("idgrey(function(t, x, u, p) return {x[1]} end, names, {states = 2})"),
                 HasSubstr("f must return one derivative for each of the 2 states (x1, x2), but it returned 1 value"));
     EXPECT_THAT(refusal("idgrey(function(t, x, u, p) return {x[1], 'a'} end, names, {states = 2})"),

@@ -10,7 +10,7 @@ namespace test_script_learning {
 using testing::HasSubstr;
 
 /// y, u of a polynomial difference equation, and data.
-const std::string kNarxRecord = R"(rng(1)
+const std::string kNarxData = R"(rng(1)
 local u = 2*rand(300) - 1
 local y = zeros(300)
 for k = 3, 300 do y[k] = 0.5*y[k-1] + 0.8*u[k-2] + u[k-1]^2 - 0.05*y[k-2]^2 end
@@ -18,7 +18,7 @@ local data = iddata(y, u, 1)
 )";
 
 /// Prey and predators, and data without inputs.
-const std::string kSindyRecord = R"(local N, Ts = 400, 0.05
+const std::string kSindyData = R"(local N, Ts = 400, 0.05
 local p, q = zeros(N), zeros(N)
 local x, y = 10, 5
 for k = 1, N do
@@ -34,7 +34,7 @@ local data = iddata(matrix{p, q}, nil, Ts, {OutputName = {"prey", "hunters"}})
 )";
 
 TEST(script_learning, narx_is_evaluated_by_its_free_run) {
-    EXPECT_EQ(printed(kNarxRecord + R"(
+    EXPECT_EQ(printed(kNarxData + R"(
 local G = narx(data, {2, 2, 1})
 print(#G.names, fit(data, G) > 99.999, #G.param == #G.std)
 print(G.report.prediction_fit_percent > 99.999, #G.report.bic >= 5)
@@ -48,7 +48,7 @@ print(tostring(G):match("y1%(k%) =") ~= nil)
 }
 
 TEST(script_learning, sindy_takes_degrees_and_libraries) {
-    EXPECT_EQ(printed(kSindyRecord + R"(
+    EXPECT_EQ(printed(kSindyData + R"(
 local G = sindy(data)
 print(G)
 local H = sindy(data, {weak = true, names = {"x", "y", "xy"}, library = function(x, u)
@@ -93,50 +93,50 @@ TEST(script_learning, bad_input_is_refused_in_words) {
     const auto expect = [](const std::string& code, const std::string& words) {
         EXPECT_THAT(printed(code), HasSubstr(words)) << code;
     };
-    expect(kNarxRecord + "narx(data, {2, 2})", "but it has 2 entries");
-    expect(kNarxRecord + "narx(data, {2, 2, 1}, {terms = 40})", "the lags and the degree allow only 15 candidates");
-    expect(kSindyRecord + "sindy(data, {library = 3})", "'library' must be a function(x, u)");
-    expect(kSindyRecord + "sindy(data, {library = function(x) return 3 end})", "must return a list of vectors");
-    expect(kSindyRecord + "sindy(data, {library = function(x) return {x[1], vector{1, 2}} end})",
+    expect(kNarxData + "narx(data, {2, 2})", "but it has 2 entries");
+    expect(kNarxData + "narx(data, {2, 2, 1}, {terms = 40})", "the lags and the degree allow only 15 candidates");
+    expect(kSindyData + "sindy(data, {library = 3})", "'library' must be a function(x, u)");
+    expect(kSindyData + "sindy(data, {library = function(x) return 3 end})", "must return a list of vectors");
+    expect(kSindyData + "sindy(data, {library = function(x) return {x[1], vector{1, 2}} end})",
            "function 2 of the library returned 2 values for 400 samples");
-    expect(kSindyRecord + "sindy(data, {library = function(x) return {x[1], 'a'} end})",
+    expect(kSindyData + "sindy(data, {library = function(x) return {x[1], 'a'} end})",
            "must return a vector or a number");
-    expect(kSindyRecord + "sindy(data, {library = function(x) return {1/(x[1] - x[1][1])} end})",
+    expect(kSindyData + "sindy(data, {library = function(x) return {1/(x[1] - x[1][1])} end})",
            "returned Inf at sample 1");
-    expect(kSindyRecord + "sindy(data, {library = function(x) return {x[1]} end, names = {'a', 'b'}})",
+    expect(kSindyData + "sindy(data, {library = function(x) return {x[1]} end, names = {'a', 'b'}})",
            "'names' has 2 strings, but the library returns 1 function");
-    expect(kSindyRecord + "sindy(data, {library = function(x) return {x[1]} end, degree = 2})", "cannot be combined");
-    expect(kSindyRecord + "sindy(data, {library = function(x) error('own') end})", "own");
-    expect(kSindyRecord + "local G = sindy(data) bode(G)", "must be a linear model, but this model from sindy is not");
-    expect(kSindyRecord + "bode(tf({1}, {1, 1}), sindy(data))", "must be a linear model");
-    expect(kSindyRecord + "sindy(data, {library = function(x) return {x.prey, x.foxes} end})",
+    expect(kSindyData + "sindy(data, {library = function(x) return {x[1]} end, degree = 2})", "cannot be combined");
+    expect(kSindyData + "sindy(data, {library = function(x) error('own') end})", "own");
+    expect(kSindyData + "local G = sindy(data) bode(G)", "must be a linear model, but this model from sindy is not");
+    expect(kSindyData + "bode(tf({1}, {1, 1}), sindy(data))", "must be a linear model");
+    expect(kSindyData + "sindy(data, {library = function(x) return {x.prey, x.foxes} end})",
            "x has no state foxes; the states are prey, hunters");
-    expect(kSindyRecord + "sindy(data, {library = function(x, u) return {x[1], u[1]} end})",
+    expect(kSindyData + "sindy(data, {library = function(x, u) return {x[1], u[1]} end})",
            "u has no input 1; it has no inputs");
-    expect(kSindyRecord + "sindy(data, {library = function(x) return x[1], x[2] end})", "must return one list");
-    expect(kNarxRecord + "narx(data[{1, 30}], {3, 3, 1}, {degree = 3})",
+    expect(kSindyData + "sindy(data, {library = function(x) return x[1], x[2] end})", "must return one list");
+    expect(kNarxData + "narx(data[{1, 30}], {3, 3, 1}, {degree = 3})",
            "27 samples have all required past values, which is too few for 84 candidate terms");
-    expect(kNarxRecord + "dmdc(data, {rank = 5})", "rank is 5, but a snapshot has only 1");
+    expect(kNarxData + "dmdc(data, {rank = 5})", "rank is 5, but a snapshot has only 1");
 }
 
 TEST(script_learning, intervals_of_an_estimate) {
-    const std::string record = R"(rng(1)
+    const std::string data_set = R"(rng(1)
 local u = prbs(5, 4)
 local y = lsim(tf({2}, {1, 1.5}, {IODelay = 0.33}), u, 0.1) + 0.2*randn(#u)
 local data = iddata(y, u, 0.1)
 local G = procsrivc(data, "P1D", {InitialState = "zero", Offset = "none"})
 )";
-    EXPECT_THAT(printed(record + R"(
+    EXPECT_THAT(printed(data_set + R"(
 local fig, B = bootstrap(G, data, {runs = 40})
 print(#B.names, B.low[3] < 0.33, B.high[3] > 0.33)
 local fig, P = profile(G, data, "Td", {points = 7})
 print(P.low < 0.33, P.high > 0.33)
 )"),
                 testing::AllOf(HasSubstr("3\ttrue\ttrue\n"), HasSubstr("\ntrue\ttrue\n")));
-    EXPECT_THAT(printed(record + "profile(G, data, 'a1')"), HasSubstr("its parameters are Kp, Tp1, Td"));
-    EXPECT_THAT(printed(record + "bootstrap(lssvf(data, {1, 1, 3}, 2), data)"),
+    EXPECT_THAT(printed(data_set + "profile(G, data, 'a1')"), HasSubstr("its parameters are Kp, Tp1, Td"));
+    EXPECT_THAT(printed(data_set + "bootstrap(lssvf(data, {1, 1, 3}, 2), data)"),
                 HasSubstr("lssvf is not a suitable method"));
-    EXPECT_THAT(printed(record + "bootstrap(tf({1}, {1, 1}), data)"), HasSubstr("specified, not estimated"));
+    EXPECT_THAT(printed(data_set + "bootstrap(tf({1}, {1, 1}), data)"), HasSubstr("specified, not estimated"));
 }
 
 TEST(script_learning, impulseest_takes_lags_and_a_kernel) {

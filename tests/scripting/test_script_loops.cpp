@@ -110,10 +110,12 @@ TEST(script_loops, recursive_methods_report_their_history) {
                       "local R = rsrivc(d, {1, 2, 0}, 4, {drift = 1e-6, HistoryPoints = 10})\n"
                       "print(#R.history.t, plot_history(R, {truth = {a1 = 4, b0 = u}}))"),
               "true\t620\t3\ntrue\ta1 a2 b0\n10\tfigure: 3 panels, 8 curves\n");
-    const std::string record = "local u = prbs(5, 20)\nlocal d = iddata(lsim(tf({2}, {1, 4, 3}), u, 0.05), u, 0.05)\n";
-    EXPECT_THAT(error_of(record + "rlssvf(d, {2, 1, 0}, 4, {forgetting = 1.1})"),
+    const std::string data_set =
+        "local u = prbs(5, 20)\nlocal d = iddata(lsim(tf({2}, {1, 4, 3}), u, 0.05), u, 0.05)\n";
+    EXPECT_THAT(error_of(data_set + "rlssvf(d, {2, 1, 0}, 4, {forgetting = 1.1})"),
                 HasSubstr("the forgetting factor must be greater than 0"));
-    EXPECT_THAT(error_of(record + "print(lssvf(d, {2, 1, 0}, 4).history)"), HasSubstr("processes all samples at once"));
+    EXPECT_THAT(error_of(data_set + "print(lssvf(d, {2, 1, 0}, 4).history)"),
+                HasSubstr("processes all samples at once"));
     // A fixed model for filters and instruments: the end is the batch estimate with the same.
     EXPECT_EQ(
         printed("rng(2)\nlocal u = prbs(5, 20)\nlocal y = lsim(tf({2}, {1, 4, 3}), u, 0.05) + 0.02*randn(#u)\n"
@@ -122,8 +124,8 @@ TEST(script_loops, recursive_methods_report_their_history) {
                 "local Q = rsrivc(d, {1, 2, 0}, 4, {model = S})\n"
                 "print(norm(R.param - I.param) < 1e-7*norm(I.param), norm(Q.param - S.param) < 1e-6*norm(S.param))"),
         "true\ttrue\n");
-    EXPECT_THAT(error_of(record + "plot_history(tf({1}, {1, 1}))"), HasSubstr("has no history"));
-    EXPECT_THAT(error_of(record + "plot_history(rlssvf(d, {2, 1, 0}, 4), {truth = {K = 1}})"),
+    EXPECT_THAT(error_of(data_set + "plot_history(tf({1}, {1, 1}))"), HasSubstr("has no history"));
+    EXPECT_THAT(error_of(data_set + "plot_history(rlssvf(d, {2, 1, 0}, 4), {truth = {K = 1}})"),
                 HasSubstr("the parameters are a1, a2, b0"));
 }
 

@@ -18,7 +18,7 @@ using namespace dynlab;
 using dynlab::test::error_of;
 using testing::HasSubstr;
 
-const std::string kRecord = "local t = linspace(0, 2, 201)\nlocal s = {position = 0*t, angle = 0.2*sin(5*t)}\n";
+const std::string kDataSet = "local t = linspace(0, 2, 201)\nlocal s = {position = 0*t, angle = 0.2*sin(5*t)}\n";
 
 /// A page of the drawing alone.
 std::string page_of(const std::string& name) {
@@ -54,7 +54,7 @@ TEST(script_motion, plants_are_made_of_the_shapes_of_documents) {
 }
 
 TEST(script_motion, keeps_signals_and_plant_in_one_figure) {
-    const RunRecord record = test::run(kRecord +
+    const RunRecord record = test::run(kDataSet +
                                        "report.figure('m', motion{rig = 'crane', t = t, measured = s,\n"
                                        "simulated = s, instants = {0.5, 1.5}, title = 'Both', width = 12}, '')");
     ASSERT_FALSE(record.error) << record.error->text();
@@ -72,13 +72,13 @@ TEST(script_motion, where_scripts_are_graded_draws_nothing_and_stops_nothing) {
     graded.graded = true;
     const test::EnvironmentVariable home("DYNLAB_HOME", "/nowhere");
     for (const char* options : {"measured = s", "measured = t", "measured = {angle = t, more = t}, simulated = s"}) {
-        const RunRecord record = test::run(kRecord + "motion{rig = 'crane', t = t, " + options + "}", graded);
+        const RunRecord record = test::run(kDataSet + "motion{rig = 'crane', t = t, " + options + "}", graded);
         EXPECT_FALSE(record.error) << options << ": " << record.error->text();
     }
 }
 
 TEST(script_motion, says_what_is_missing) {
-    const auto reported = [](const std::string& options) { return error_of(kRecord + "motion{" + options + "}"); };
+    const auto reported = [](const std::string& options) { return error_of(kDataSet + "motion{" + options + "}"); };
     EXPECT_THAT(
         reported("t = t, measured = s"),
         HasSubstr("unknown animated plant ''; the plants are crane, drifting_process, drive, thruster, two_tanks"));

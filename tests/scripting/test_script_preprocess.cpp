@@ -10,17 +10,17 @@ using dynlab::test::error_of;
 using dynlab::test::printed;
 using testing::HasSubstr;
 
-const std::string kRecord =
+const std::string kDataSet =
     "local u = step_signal(100, 21, {1, 2})\n"
     "local y = 10 + lsim(tf({3}, {1, 1}), u - 1, 0.1)\n"
     "local d = iddata(y, u, 0.1)\n";
 
 std::string said(const std::string& code) {
-    return printed(kRecord + code);
+    return printed(kDataSet + code);
 }
 
 std::string refused(const std::string& code) {
-    return error_of(kRecord + code);
+    return error_of(kDataSet + code);
 }
 
 TEST(script_preprocess, functions_and_methods_do_the_same) {

@@ -84,31 +84,32 @@ TEST(script_studies, wrong_studies_say_what_is_wrong) {
 }
 
 TEST(script_studies, order_search_recommends_the_true_orders) {
-    const std::string record =
+    const std::string data_set =
         "local u = prbs(7, 8)\nlocal x = lsim(tf({2}, {1, 4, 3}), u, 0.05)\n"
         "local data, check = iddata(x + 0.1*randn(#u), u, 0.05), iddata(x + 0.1*randn(#u), u, 0.05)\n";
-    EXPECT_THAT(printed(record + "local V = srivcstruc(data, {poles = {1, 4}, zeros = {0, 2}})\n"
-                                 "print(V)\nprint(#V.rows, V.best.poles, V.best.zeros, #V.best.model.den)"),
+    EXPECT_THAT(printed(data_set + "local V = srivcstruc(data, {poles = {1, 4}, zeros = {0, 2}})\n"
+                                   "print(V)\nprint(#V.rows, V.best.poles, V.best.zeros, #V.best.model.den)"),
                 AllOf(HasSubstr("* "), HasSubstr("Recommended: 2 poles and no zero"), HasSubstr("9\t2\t0\t3\n")));
-    EXPECT_THAT(printed(record + "local V = srivcstruc(data, {{1, 1, 0}, {1, 2, 0}, {1, 2, 1}}, {validate = check})\n"
-                                 "local G = selcstruc(V)\nprint(#G.den, V.rows[3].delay, V.best.validation_fit > 50)"),
-                AllOf(HasSubstr("val. (%)"), HasSubstr("3\t0.05\ttrue\n")));
-    EXPECT_THAT(error_of(record + "selcstruc(srivcstruc(data, {poles = 2, zeros = 0}), 'validation')"),
+    EXPECT_THAT(
+        printed(data_set + "local V = srivcstruc(data, {{1, 1, 0}, {1, 2, 0}, {1, 2, 1}}, {validate = check})\n"
+                           "local G = selcstruc(V)\nprint(#G.den, V.rows[3].delay, V.best.validation_fit > 50)"),
+        AllOf(HasSubstr("val. (%)"), HasSubstr("3\t0.05\ttrue\n")));
+    EXPECT_THAT(error_of(data_set + "selcstruc(srivcstruc(data, {poles = 2, zeros = 0}), 'validation')"),
                 HasSubstr("validation data"));
-    EXPECT_THAT(error_of(record + "selcstruc(srivcstruc(data, {poles = 2, zeros = 0}), 'nonsense')"),
+    EXPECT_THAT(error_of(data_set + "selcstruc(srivcstruc(data, {poles = 2, zeros = 0}), 'nonsense')"),
                 HasSubstr("criterion must be"));
-    EXPECT_THAT(error_of(record + "srivcstruc(data, {poles = {2, 1}})"), HasSubstr("option 'poles' must be a range"));
-    EXPECT_THAT(error_of(record + "srivcstruc(data, {pole = 2})"), HasSubstr("did you mean 'poles'"));
+    EXPECT_THAT(error_of(data_set + "srivcstruc(data, {poles = {2, 1}})"), HasSubstr("option 'poles' must be a range"));
+    EXPECT_THAT(error_of(data_set + "srivcstruc(data, {pole = 2})"), HasSubstr("did you mean 'poles'"));
 }
 
 TEST(script_studies, a_second_record_is_evaluated_as_fit_does) {  // oracle: fit() of the recommended model
-    const std::string record =
+    const std::string data_set =
         "local u = prbs(7, 8)\nlocal x = lsim(tf({2}, {1, 4, 3}), u, 0.05)\n"
         "local data = iddata(x + 50 + 0.1*randn(#u), u + 3, 0.05)\n"
         "local check = iddata(x - 20 + 0.1*randn(#u), u - 1, 0.05)\n";
     for (const std::string offset : {"estimate", "remove", "auto"}) {
         const std::string start = "InitialState = 'estimate', Offset = '" + offset + "'}";
-        EXPECT_THAT(printed(record + "local V = srivcstruc(data, {poles = 2, zeros = 0, validate = check, " + start +
+        EXPECT_THAT(printed(data_set + "local V = srivcstruc(data, {poles = 2, zeros = 0, validate = check, " + start +
                             ")\nlocal own = fit(check, V.best.model, {" + start +
                             ")\nprint(math.abs(V.best.validation_fit - own) < 1e-9, own > 50)"),
                     HasSubstr("true\ttrue\n"))
@@ -118,25 +119,25 @@ TEST(script_studies, a_second_record_is_evaluated_as_fit_does) {  // oracle: fit
 
 // Oracle: arx() itself, over the same samples.
 TEST(script_studies, arx_orders_are_chosen_and_go_on_to_arx) {
-    const std::string record =
+    const std::string data_set =
         "local function made(seed)\nrng(seed)\nlocal u, y = randn(500), zeros(500)\n"
         "for k = 3, 500 do y[k] = 1.5*y[k-1] - 0.7*y[k-2] + u[k-1] + 0.5*u[k-2] + 0.2*randn() end\n"
         "return iddata(y, u, 1)\nend\nlocal data, second = made(1), made(2)\n";
-    EXPECT_THAT(printed(record + "local V = arxstruc(data, {na = {1, 4}, nb = {1, 4}, nk = {1, 2}})\n"
-                                 "local o, fig = selstruc(V, 'MDL')\nprint(o[1], o[2], o[3], #V.rows, V.best.na)\n"
-                                 "print(arx(data, o).param[1] < -1.4)"),
+    EXPECT_THAT(printed(data_set + "local V = arxstruc(data, {na = {1, 4}, nb = {1, 4}, nk = {1, 2}})\n"
+                                   "local o, fig = selstruc(V, 'MDL')\nprint(o[1], o[2], o[3], #V.rows, V.best.na)\n"
+                                   "print(arx(data, o).param[1] < -1.4)"),
                 AllOf(HasSubstr("*    2    2    1          4"), HasSubstr("has the smallest BIC."),
                       HasSubstr("2\t2\t1\t32\t2\ntrue\n")));
-    EXPECT_THAT(printed(record + "local V = arxstruc(data, {na = 2, nb = 2, nk = 1, validate = second})\n"
-                                 "local G = arx(data, {2, 2, 1})\n"
-                                 "print(math.abs(V.best.loss/G.report.loss - 1) < 1e-9, V.best.validation_loss > "
-                                 "V.best.loss/2, V.best.determined)\nprint(V)"),
+    EXPECT_THAT(printed(data_set + "local V = arxstruc(data, {na = 2, nb = 2, nk = 1, validate = second})\n"
+                                   "local G = arx(data, {2, 2, 1})\n"
+                                   "print(math.abs(V.best.loss/G.report.loss - 1) < 1e-9, V.best.validation_loss > "
+                                   "V.best.loss/2, V.best.determined)\nprint(V)"),
                 AllOf(HasSubstr("true\ttrue\ttrue"), HasSubstr("val. loss")));
-    EXPECT_THAT(error_of(record + "selstruc(arxstruc(data), 'FPE')"),
+    EXPECT_THAT(error_of(data_set + "selstruc(arxstruc(data), 'FPE')"),
                 HasSubstr("\"loss\", \"AIC\", \"BIC\" or \"MDL\""));
-    EXPECT_THAT(error_of(record + "arxstruc(data, second, {{1, 1, 1}})"), HasSubstr("accepts at most 2 arguments"));
-    EXPECT_THAT(error_of(record + "arxstruc(data, {n = 2})"), HasSubstr("unknown option 'n'"));
-    EXPECT_THAT(error_of(record + "selstruc(3)"), HasSubstr("the result of arxstruc"));
+    EXPECT_THAT(error_of(data_set + "arxstruc(data, second, {{1, 1, 1}})"), HasSubstr("accepts at most 2 arguments"));
+    EXPECT_THAT(error_of(data_set + "arxstruc(data, {n = 2})"), HasSubstr("unknown option 'n'"));
+    EXPECT_THAT(error_of(data_set + "selstruc(3)"), HasSubstr("the result of arxstruc"));
 }
 
 // Oracle: a separate call of srivc() with Integration.
@@ -150,18 +151,19 @@ TEST(script_studies, structures_may_have_an_integrator) {
 }
 
 TEST(script_studies, delays_are_real_numbers) {  // oracle: the simulated system
-    const std::string record =
+    const std::string data_set =
         "local u = prbs(8, 5)\nlocal x = lsim(tf({-4, 0.5}, {1, 1, 4}, {IODelay = 8}), u, 0.1)\n"
         "local data = iddata(x + 10^(-15/20)*std(x)*randn(#u), u, 0.1)\n";
-    EXPECT_THAT(printed(record + "local Td, fig, D = delayest(data, {poles = 2, zeros = 1})\n"
-                                 "print(math.abs(Td - 8) < 4*D.std, D.delay == Td, math.abs(D.samples - 10*Td) < 1e-9, "
-                                 "D.poles, D.zeros, D.model.IODelay == Td, #D.delays == #D.losses, D.rival)"),
-                AllOf(HasSubstr("The delay is "), HasSubstr("true\ttrue\ttrue\t2\t1\ttrue\ttrue\tnil\n")));
-    EXPECT_THAT(error_of(record + "delayest(data, {TdMin = 3, TdMax = 3})"),
+    EXPECT_THAT(
+        printed(data_set + "local Td, fig, D = delayest(data, {poles = 2, zeros = 1})\n"
+                           "print(math.abs(Td - 8) < 4*D.std, D.delay == Td, math.abs(D.samples - 10*Td) < 1e-9, "
+                           "D.poles, D.zeros, D.model.IODelay == Td, #D.delays == #D.losses, D.rival)"),
+        AllOf(HasSubstr("The delay is "), HasSubstr("true\ttrue\ttrue\t2\t1\ttrue\ttrue\tnil\n")));
+    EXPECT_THAT(error_of(data_set + "delayest(data, {TdMin = 3, TdMax = 3})"),
                 HasSubstr("TdMax must be greater than TdMin"));
-    EXPECT_THAT(error_of(record + "delayest(data, {TdMax = 1000})"), HasSubstr("TdMax"));
-    EXPECT_THAT(error_of(record + "delayest(data, {pole = 2})"), HasSubstr("did you mean 'poles'"));
-    EXPECT_THAT(error_of(record + "delayest(x)"), HasSubstr("data"));
+    EXPECT_THAT(error_of(data_set + "delayest(data, {TdMax = 1000})"), HasSubstr("TdMax"));
+    EXPECT_THAT(error_of(data_set + "delayest(data, {pole = 2})"), HasSubstr("did you mean 'poles'"));
+    EXPECT_THAT(error_of(data_set + "delayest(x)"), HasSubstr("data"));
 }
 
 }  // namespace test_script_studies

@@ -16,7 +16,7 @@ using dynlab::test::printed;
 using testing::HasSubstr;
 using testing::Not;
 
-const std::string kRecord =
+const std::string kDataSet =
     "local u = prbs(7, 8)\n"
     "local x = lsim(idproc('P2', {Kp = 2, Tp1 = 1, Tp2 = 0.3}), u, 0.05)\n"
     "local white = iddata(x + 0.1*randn(#u), u, 0.05)\n"
@@ -24,82 +24,82 @@ const std::string kRecord =
     "local colored = iddata(x + noise, u, 0.05)\n";
 
 TEST(script_validation, resid_says_what_is_left) {
-    EXPECT_THAT(printed(kRecord + "local fig, t = resid(white, procsrivc(white, 'P2'))\nprint(t.white, t.independent, "
-                                  "#t.residuals[1], #t.outputs[1].inputs[1].correlation)"),
+    EXPECT_THAT(printed(kDataSet + "local fig, t = resid(white, procsrivc(white, 'P2'))\nprint(t.white, t.independent, "
+                                   "#t.residuals[1], #t.outputs[1].inputs[1].correlation)"),
                 HasSubstr("true\ttrue\t1016\t51\n"));
-    EXPECT_THAT(printed(kRecord + "local fig, t = resid(white, procsrivc(white, 'P1'))\nprint(t.independent)"),
+    EXPECT_THAT(printed(kDataSet + "local fig, t = resid(white, procsrivc(white, 'P1'))\nprint(t.independent)"),
                 testing::AllOf(HasSubstr("The model does not describe all dynamics"), HasSubstr("false\n")));
-    EXPECT_THAT(printed(kRecord + "print((resid(iddata(x, u, 0.05), idproc('P2', {Kp = 2, Tp1 = 1, Tp2 = 0.3}))))"),
+    EXPECT_THAT(printed(kDataSet + "print((resid(iddata(x, u, 0.05), idproc('P2', {Kp = 2, Tp1 = 1, Tp2 = 0.3}))))"),
                 testing::AllOf(HasSubstr("rounding error"), HasSubstr("nil\n")));
 }
 
 TEST(script_validation, reports_and_resid_name_the_structure_that_is_missed) {
-    EXPECT_THAT(printed(kRecord + "local raised = iddata(x + u + 0.1*randn(#u) + 5, u, 0.05)\n"
-                                  "local G = srivc(raised, {1, 2, 0})\nprint(G.report.warnings[#G.report.warnings])\n"
-                                  "local fig, t = resid(raised, G)\nprint(t.verdict)"),
+    EXPECT_THAT(printed(kDataSet + "local raised = iddata(x + u + 0.1*randn(#u) + 5, u, 0.05)\n"
+                                   "local G = srivc(raised, {1, 2, 0})\nprint(G.report.warnings[#G.report.warnings])\n"
+                                   "local fig, t = resid(raised, G)\nprint(t.verdict)"),
                 testing::AllOf(HasSubstr("With as many zeros as poles, the fit is"),
                                Not(HasSubstr("The model does not describe all dynamics"))));
-    EXPECT_THAT(printed(kRecord + "print(#srivc(white, {1, 2, 0}).report.warnings)"), HasSubstr("0\n"));
-    EXPECT_THAT(printed(kRecord + "local G = rivc(iddata(x + u + 0.1*randn(#u) + 5, u, 0.05), {1, 0, 1, 2, 0})\n"
-                                  "print(G.report.warnings[#G.report.warnings])"),
+    EXPECT_THAT(printed(kDataSet + "print(#srivc(white, {1, 2, 0}).report.warnings)"), HasSubstr("0\n"));
+    EXPECT_THAT(printed(kDataSet + "local G = rivc(iddata(x + u + 0.1*randn(#u) + 5, u, 0.05), {1, 0, 1, 2, 0})\n"
+                                   "print(G.report.warnings[#G.report.warnings])"),
                 HasSubstr("With as many zeros as poles, the fit is"));
 }
 
 TEST(script_validation, resid_can_be_quiet_in_a_loop) {
-    EXPECT_EQ(printed(kRecord + "local fig, t = resid(white, procsrivc(white, 'P1'), {quiet = true})\n"
-                                "print(fig, t.independent)"),
+    EXPECT_EQ(printed(kDataSet + "local fig, t = resid(white, procsrivc(white, 'P1'), {quiet = true})\n"
+                                 "print(fig, t.independent)"),
               "nil\tfalse\n");
 }
 
 TEST(script_validation, resid_takes_discrete_models_and_experiments) {
-    EXPECT_THAT(printed(kRecord + "local _, t = resid(white, c2d(idproc('P2', {Kp = 2, Tp1 = 1, Tp2 = 0.3}), 0.05))\n"
-                                  "print(t.white, t.independent)"),
+    EXPECT_THAT(printed(kDataSet + "local _, t = resid(white, c2d(idproc('P2', {Kp = 2, Tp1 = 1, Tp2 = 0.3}), 0.05))\n"
+                                   "print(t.white, t.independent)"),
                 HasSubstr("true\ttrue\n"));
-    EXPECT_THAT(printed(kRecord + "local d = white:range(1, 500):merge(white:range(600, 1016))\n"
-                                  "local G = idproc('P2', {Kp = 2, Tp1 = 1, Tp2 = 0.3})\n"
-                                  "local _, t = resid(d, G)\nprint(#t.residuals[2], t.independent, fit(d, G) > 80)\n"
-                                  "compare(d, G)"),
+    EXPECT_THAT(printed(kDataSet + "local d = white:range(1, 500):merge(white:range(600, 1016))\n"
+                                   "local G = idproc('P2', {Kp = 2, Tp1 = 1, Tp2 = 0.3})\n"
+                                   "local _, t = resid(d, G)\nprint(#t.residuals[2], t.independent, fit(d, G) > 80)\n"
+                                   "compare(d, G)"),
                 HasSubstr("417\ttrue\ttrue\n"));
-    EXPECT_EQ(printed(kRecord + "local d = white:range(1, 500):merge(white:range(600, 1016))\n"
-                                "local G = idproc('P1', {Kp = 2, Tp1 = 1})\n"
-                                "print(fit_measures(d, G).fit_percent == fit(d, G))"),
+    EXPECT_EQ(printed(kDataSet + "local d = white:range(1, 500):merge(white:range(600, 1016))\n"
+                                 "local G = idproc('P1', {Kp = 2, Tp1 = 1})\n"
+                                 "print(fit_measures(d, G).fit_percent == fit(d, G))"),
               "true\n");
 }
 
 // Oracle: the definition, by hand: every experiment counts from its own means.
 TEST(script_validation, measures_blind_to_constants_are_so_in_each_experiment) {
     EXPECT_EQ(
-        printed(kRecord + "local G = idproc('P2', {Kp = 2, Tp1 = 1, Tp2 = 0.3})\n"
-                          "local a = iddata(x + 0.1*randn(#u) + 3, u, 0.05)\n"
-                          "local b = iddata(x + 0.1*randn(#u) - 5, u, 0.05)\n"
-                          "local how = {InitialState = 'zero', Offset = 'none'}\n"
-                          "local errors, swings = 0, 0\n"
-                          "for _, d in ipairs{a, b} do\n"
-                          "    local e = d.y - x\n"
-                          "    errors, swings = errors + norm(e - mean(e))^2, swings + norm(d.y - mean(d.y))^2\n"
-                          "end\n"
-                          "local m = fit_measures(merge(a, b), G, how)\n"
-                          "print(math.abs(m.r_squared_simulation - (1 - errors/swings)) < 1e-9, m.fit_percent < 0)"),
+        printed(kDataSet + "local G = idproc('P2', {Kp = 2, Tp1 = 1, Tp2 = 0.3})\n"
+                           "local a = iddata(x + 0.1*randn(#u) + 3, u, 0.05)\n"
+                           "local b = iddata(x + 0.1*randn(#u) - 5, u, 0.05)\n"
+                           "local how = {InitialState = 'zero', Offset = 'none'}\n"
+                           "local errors, swings = 0, 0\n"
+                           "for _, d in ipairs{a, b} do\n"
+                           "    local e = d.y - x\n"
+                           "    errors, swings = errors + norm(e - mean(e))^2, swings + norm(d.y - mean(d.y))^2\n"
+                           "end\n"
+                           "local m = fit_measures(merge(a, b), G, how)\n"
+                           "print(math.abs(m.r_squared_simulation - (1 - errors/swings)) < 1e-9, m.fit_percent < 0)"),
         "true\ttrue\n");
 }
 
 TEST(script_validation, present_shows_robust_errors_for_colored_noise_only) {
-    EXPECT_THAT(printed(kRecord + "present(procsrivc(colored, 'P2'))"),
+    EXPECT_THAT(printed(kDataSet + "present(procsrivc(colored, 'P2'))"),
                 testing::AllOf(HasSubstr("(robust ± "), HasSubstr("not white")));
-    EXPECT_THAT(printed(kRecord + "present(procsrivc(white, 'P2'))"), Not(HasSubstr("robust")));
-    EXPECT_EQ(printed(kRecord + "local G = procsrivc(colored, 'P2')\nprint(#G.robust_std, G.robust_std[1] > G.std[1], "
-                                "math.abs(G.robust_covariance[{1, 1}] - G.robust_std[1]^2) < 1e-12)"),
+    EXPECT_THAT(printed(kDataSet + "present(procsrivc(white, 'P2'))"), Not(HasSubstr("robust")));
+    EXPECT_EQ(printed(kDataSet + "local G = procsrivc(colored, 'P2')\nprint(#G.robust_std, G.robust_std[1] > G.std[1], "
+                                 "math.abs(G.robust_covariance[{1, 1}] - G.robust_std[1]^2) < 1e-12)"),
               "3\ttrue\ttrue\n");
 }
 
 TEST(script_validation, present_gives_no_error_of_a_delay_at_its_bound) {
-    const std::string shown = printed(kRecord + "present(tfsrivc(white, 2, 0, {TdMax = 0.3}))");
+    const std::string shown = printed(kDataSet + "present(tfsrivc(white, 2, 0, {TdMax = 0.3}))");
     EXPECT_THAT(shown, HasSubstr("  Td               0  (at its bound)\n"));
     EXPECT_THAT(shown, Not(HasSubstr("± 0\n")));
 }
 
 TEST(script_validation, present_reports_errors_of_gain_and_time_constants) {  // oracle: the gain's own standard error
-    const std::string text = printed(kRecord +
+    const std::string text = printed(kDataSet +
                                      "local G = procsrivc(white, 'P1')\npresent(G)\n"
                                      "print(string.format('KP %.2g T %.2g', G.robust_std[1], G.robust_std[2]))");
     const auto errors = text.substr(text.find("KP ") + 3);
@@ -111,7 +111,7 @@ TEST(script_validation, present_reports_errors_of_gain_and_time_constants) {  //
 
 // Oracle: the place of the last digit that is printed, against the error beside it.
 TEST(script_validation, present_writes_no_digits_below_the_error) {
-    const std::string text = printed(kRecord + "present(procsrivc(white, 'P2'))\npresent(srivc(colored, {2, 2, 0}))");
+    const std::string text = printed(kDataSet + "present(procsrivc(white, 'P2'))\npresent(srivc(colored, {2, 2, 0}))");
     static const std::regex kPair(R"(\d+(?:\.(\d+))? +± (\d+(?:\.\d+)?(?:e-?\d+)?))");
     int pairs = 0;
     for (std::sregex_iterator pair(text.begin(), text.end(), kPair), end; pair != end; ++pair, ++pairs)
@@ -121,7 +121,7 @@ TEST(script_validation, present_writes_no_digits_below_the_error) {
 
 // Oracle: the words and bounds of the help pages.
 TEST(script_validation, options_are_held_to_their_words_and_bounds) {
-    const std::string model = kRecord + "local G = idproc('P1', {Kp = 2, Tp1 = 1})\n";
+    const std::string model = kDataSet + "local G = idproc('P1', {Kp = 2, Tp1 = 1})\n";
     for (const auto& [call, said] : std::vector<std::pair<std::string, std::string>>{
              {"compare(white, G, {InitialState = 'model'})",
               "option 'InitialState' must be one of \"none\", \"steady\", \"estimate\", \"auto\", but \"model\" was "
@@ -144,7 +144,7 @@ TEST(script_validation, options_are_held_to_their_words_and_bounds) {
 
 TEST(script_validation, figures_carry_bands_unless_refused) {
     const auto bands = [](const std::string& drawing) {
-        const RunRecord record = test::run(kRecord + "local G = procsrivc(white, 'P2')\n" + drawing);
+        const RunRecord record = test::run(kDataSet + "local G = procsrivc(white, 'P2')\n" + drawing);
         EXPECT_FALSE(record.error) << record.error->text();
         std::size_t count = 0;
         for (const auto& [name, figure] : record.figures)
@@ -163,14 +163,14 @@ TEST(script_validation, figures_carry_bands_unless_refused) {
     EXPECT_THAT(error_of("nyquist(tf({1}, {1, 1}), {confidence = 0.9})"), HasSubstr("unknown option 'confidence'"));
 }
 
-const std::string kNoisyRecord =
+const std::string kNoisyData =
     "local z = tf('z', 1)\n"
     "local u = prbs(7, 4)\n"
     "local y = lsim((z + 0.5)/(z^2 - 1.5*z + 0.7), u, 1) + lsim(z^2/(z^2 - 1.5*z + 0.7), 0.3*randn(#u), 1)\n"
     "local d = iddata(y, u, 1)\n";
 
 TEST(script_validation, predict_and_pe_know_the_noise) {
-    EXPECT_EQ(printed(kNoisyRecord +
+    EXPECT_EQ(printed(kNoisyData +
                       "local G = armax(d, {2, 2, 1, 1})\n"
                       "local e, about = pe(d, G)\n"
                       "local yp = predict(d, G)\n"
@@ -178,34 +178,34 @@ TEST(script_validation, predict_and_pe_know_the_noise) {
                       "print(norm(predict(d, G, 5) - predict(d, G, {k = 5})))\n"
                       "print(fit(d, G, {k = 1}) > fit(d, G, {k = 3}), fit(d, G, {k = 3}) > fit(d, G))"),
               "508\t3\ttrue\t0\n0\ntrue\ttrue\n");
-    EXPECT_EQ(printed(kRecord + "local G = rivc(colored, {1, 0, 1, 2, 0})\n"
-                                "print(G.report.Ts, fit(colored, G, {k = 1}) > fit(colored, G) + 5)"),
+    EXPECT_EQ(printed(kDataSet + "local G = rivc(colored, {1, 0, 1, 2, 0})\n"
+                                 "print(G.report.Ts, fit(colored, G, {k = 1}) > fit(colored, G) + 5)"),
               "0.05\ttrue\n");
-    EXPECT_EQ(printed(kRecord + "local G = procsrivc(white, 'P2')\n"
-                                "print(norm(predict(white, G) - fit_measures(white, G).output))\n"
-                                "local two = white:range(1, 500):merge(white:range(600, 1016))\n"
-                                "local y, about = predict(two, G)\nprint(#y, #y[2], about.message:match('^%a+'))"),
+    EXPECT_EQ(printed(kDataSet + "local G = procsrivc(white, 'P2')\n"
+                                 "print(norm(predict(white, G) - fit_measures(white, G).output))\n"
+                                 "local two = white:range(1, 500):merge(white:range(600, 1016))\n"
+                                 "local y, about = predict(two, G)\nprint(#y, #y[2], about.message:match('^%a+'))"),
               "0\n2\t417\tSimulated\n");
-    EXPECT_EQ(printed(kNoisyRecord + "local G = arx(d, {2, 2, 1})\nprint(fit(d, G, 4) == fit(d, G, {k = 4}), "
-                                     "compare(d, G, 4).curves[2].label == compare(d, G, {K = 4}).curves[2].label, "
-                                     "G.noise_variance == G.report.noise_variance)"),
+    EXPECT_EQ(printed(kNoisyData + "local G = arx(d, {2, 2, 1})\nprint(fit(d, G, 4) == fit(d, G, {k = 4}), "
+                                   "compare(d, G, 4).curves[2].label == compare(d, G, {K = 4}).curves[2].label, "
+                                   "G.noise_variance == G.report.noise_variance)"),
               "true\ttrue\ttrue\n");
-    EXPECT_THAT(error_of(kNoisyRecord + "predict(d, arx(d, {2, 2, 1}), {k = 0.5})"),
+    EXPECT_THAT(error_of(kNoisyData + "predict(d, arx(d, {2, 2, 1}), {k = 0.5})"),
                 HasSubstr("option 'k' must be a whole number of steps"));
-    EXPECT_THAT(error_of(kNoisyRecord + "predict(d, arx(d, {2, 2, 1}), -2)"), HasSubstr("but -2 was given"));
-    EXPECT_THAT(error_of(kNoisyRecord + "pe(iddata(y, u, 0.5), arx(d, {2, 2, 1}))"), HasSubstr("both must be equal"));
+    EXPECT_THAT(error_of(kNoisyData + "predict(d, arx(d, {2, 2, 1}), -2)"), HasSubstr("but -2 was given"));
+    EXPECT_THAT(error_of(kNoisyData + "pe(iddata(y, u, 0.5), arx(d, {2, 2, 1}))"), HasSubstr("both must be equal"));
 }
 
 TEST(script_validation, resid_tests_predictions_too) {
-    EXPECT_EQ(printed(kNoisyRecord + "local G = arx(d, {2, 2, 1})\n"
-                                     "local _, e = resid(d, G, {prediction = true, quiet = true})\n"
-                                     "local _, v = resid(d, G, {quiet = true})\n"
-                                     "print(e.white, v.white, norm(e.residuals[1] - pe(d, G)) < 1e-12)"),
+    EXPECT_EQ(printed(kNoisyData + "local G = arx(d, {2, 2, 1})\n"
+                                   "local _, e = resid(d, G, {prediction = true, quiet = true})\n"
+                                   "local _, v = resid(d, G, {quiet = true})\n"
+                                   "print(e.white, v.white, norm(e.residuals[1] - pe(d, G)) < 1e-12)"),
               "true\tfalse\ttrue\n");
 }
 
 TEST(script_validation, compare_gives_what_it_draws) {
-    EXPECT_EQ(printed(kNoisyRecord +
+    EXPECT_EQ(printed(kNoisyData +
                       "local G = arx(d, {2, 2, 1})\n"
                       "local drawn = compare(d, G, {k = 2}).curves\n"
                       "print(#drawn, drawn[1].label, norm(drawn[1].y - d.y), norm(drawn[2].y - predict(d, G, 2)))\n"
@@ -217,7 +217,7 @@ TEST(script_validation, compare_gives_what_it_draws) {
 
 // Oracle: an output raised by 5, whose fit without the offset is that of the errors 5 on every sample.
 TEST(script_validation, fit_compare_and_present_state_the_offset_that_they_remove) {
-    const std::string raised = kRecord +
+    const std::string raised = kDataSet +
                                "local raised = iddata(x + 5, u, 0.05, {OutputUnit = 'V'})\n"
                                "local G = idproc('P2', {Kp = 2, Tp1 = 1, Tp2 = 0.3})\n";
     const std::string noted = printed(raised +
@@ -225,7 +225,8 @@ TEST(script_validation, fit_compare_and_present_state_the_offset_that_they_remov
                                       "print('plain', 100*(1 - 5*math.sqrt(#u)/norm(x - mean(x))))");
     std::smatch found;
     const std::regex note(
-        "^fit: an estimated offset of 5 V was removed; if the offset is not removed, the fit is (-[0-9.]+) %\\. To choose, set "
+        "^fit: an estimated offset of 5 V was removed; if the offset is not removed, the fit is (-[0-9.]+) %\\. To "
+        "choose, set "
         "Offset to \"estimate\" or \"none\"\\.\nplain\t(-[0-9.]+)\n$");
     ASSERT_TRUE(std::regex_match(noted, found, note)) << noted << "once a line";
     EXPECT_NEAR(std::stod(found[1]), std::stod(found[2]), 0.1);
@@ -242,19 +243,19 @@ TEST(script_validation, fit_compare_and_present_state_the_offset_that_they_remov
 
 TEST(script_validation, crossvalidate_ranks_structures) {
     EXPECT_THAT(
-        printed(kRecord + "local function fold(kind) return function(d) return procsrivc(d:experiment(1), kind) "
-                          "end end\n"
-                          "local _, one = crossvalidate(white, fold('P1'), {folds = 4})\n"
-                          "local _, two = crossvalidate(white, fold('P2'), {folds = 4})\n"
-                          "print(#two.fit_percent, two.mean[1] > one.mean[1], two.folds[2].first)"),
+        printed(kDataSet + "local function fold(kind) return function(d) return procsrivc(d:experiment(1), kind) "
+                           "end end\n"
+                           "local _, one = crossvalidate(white, fold('P1'), {folds = 4})\n"
+                           "local _, two = crossvalidate(white, fold('P2'), {folds = 4})\n"
+                           "print(#two.fit_percent, two.mean[1] > one.mean[1], two.folds[2].first)"),
         testing::AllOf(HasSubstr("Simulated on 4 parts"), HasSubstr("4\ttrue\t255\n")));
 }
 
 TEST(script_validation, crossvalidate_passes_errors_on) {
-    EXPECT_EQ(error_of(kRecord + "crossvalidate(white, function(d) error('no') end)"), "lesson.lua:6: no");
-    EXPECT_THAT(error_of(kRecord + "crossvalidate(white, function(d) return 3 end)"),
+    EXPECT_EQ(error_of(kDataSet + "crossvalidate(white, function(d) error('no') end)"), "lesson.lua:6: no");
+    EXPECT_THAT(error_of(kDataSet + "crossvalidate(white, function(d) return 3 end)"),
                 HasSubstr("the estimation function must return a model"));
-    EXPECT_THAT(error_of(kRecord + "crossvalidate(white, 3)"),
+    EXPECT_THAT(error_of(kDataSet + "crossvalidate(white, 3)"),
                 HasSubstr("argument 2 (fit) must be a function of a data object"));
 }
 

@@ -18,7 +18,7 @@ struct StudentScript {
     std::string group, code, remedy;
 };
 
-constexpr const char* kRecord =
+constexpr const char* kDataSet =
     "local u = prbs(6, 4)\nlocal G = tf({2}, {1, 3, 2})\nlocal d = iddata(lsim(G, u, 0.1), u, 0.1)\n";
 
 std::vector<StudentScript> student_scripts() {
@@ -31,7 +31,7 @@ std::vector<StudentScript> student_scripts() {
             group = line.substr(3);
             head = false;
         } else if (line.starts_with("=> ")) {
-            scripts.push_back({group, code.starts_with('@') ? kRecord + code.substr(1) : code, line.substr(3)});
+            scripts.push_back({group, code.starts_with('@') ? kDataSet + code.substr(1) : code, line.substr(3)});
             code.clear();
         } else if (!head && !line.empty()) {
             code += line + "\n";

@@ -31,7 +31,7 @@ class faulty_advice_statistics : public testing::TestWithParam<CorpusKind> {};
 
 TEST_P(clean_advice_statistics, no_warning) {
     for (std::uint32_t seed = kFirstSeed; seed < kFirstSeed + kSeeds; ++seed) {
-        const Advice advice = advise(GetParam().record(seed));
+        const Advice advice = advise(GetParam().simulated_data(seed));
         EXPECT_TRUE(advice.clean()) << GetParam().name << ", seed " << seed << warnings(advice);
     }
 }
@@ -40,7 +40,7 @@ TEST_P(faulty_advice_statistics, all_but_one_are_found) {
     std::uint32_t found = 0;
     std::string missed;
     for (std::uint32_t seed = kFirstSeed; seed < kFirstSeed + kSeeds; ++seed) {
-        const Advice advice = advise(GetParam().record(seed));
+        const Advice advice = advise(GetParam().simulated_data(seed));
         if (has_one_of(advice, GetParam().codes))
             ++found;
         else

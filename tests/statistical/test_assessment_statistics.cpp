@@ -29,7 +29,7 @@ struct TwoOutputs {
     TransferStructure structure = TransferStructure::grid(2, 1, Denominators::kCommon, {2}, {0, 1}, {0, 0});
     Vector theta = values({1.2, 4, 4, 100, 300});
 
-    IdData record(std::uint32_t seed) const {
+    IdData simulated_data(std::uint32_t seed) const {
         const Vector u = prbs(7, 8);
         const Vector first = noise(u.size(), seed), own = noise(u.size(), seed + 10000);
         const Vector second = in_common * first + std::sqrt(1 - in_common * in_common) * own;
@@ -53,7 +53,7 @@ Runs runs_of(const TwoOutputs& system) {
     Matrix values(kRuns, system.theta.size());
     Runs runs{{}, Vector::Zero(system.theta.size())};
     for (int run = 0; run < kRuns; ++run) {
-        const IdData data = system.record(static_cast<std::uint32_t>(run + 1));
+        const IdData data = system.simulated_data(static_cast<std::uint32_t>(run + 1));
         const Fit estimate = srivc(data, system.structure, FitOptions{}.from_rest());
         values.row(run) = estimate.theta.transpose();
         runs.robust += assess(data, estimate).std / kRuns;
@@ -73,15 +73,15 @@ void expect_honest_errors(const TwoOutputs& system) {
 
 /// The crane's estimation data. The voltage is integrated (exactly, with foh); the outputs are relative to the initial
 /// rest.
-IdData crane_record(std::uint32_t seed) {
+IdData crane_data(std::uint32_t seed) {
     constexpr Index kRest = 50;
     const CraneExperiments experiments;
-    const CraneRecord record = simulate_crane({}, experiments, seed).front();
-    const Index N = record.u.size();
+    const CraneData simulated_data = simulate_crane({}, experiments, seed).front();
+    const Index N = simulated_data.u.size();
     Vector integral = Vector::Zero(N);
-    for (Index k = 1; k < N; ++k) integral[k] = integral[k - 1] + experiments.Ts * record.u[k - 1];
+    for (Index k = 1; k < N; ++k) integral[k] = integral[k - 1] + experiments.Ts * simulated_data.u[k - 1];
     Matrix y(N, 2);
-    y << record.x, record.theta;
+    y << simulated_data.x, simulated_data.theta;
     y.rowwise() -= y.topRows(kRest).colwise().mean().eval();
     IdData data(y, Matrix(integral), experiments.Ts);
     data.hold = Hold::kFoh;
@@ -171,7 +171,7 @@ TEST(assessment_statistics, two_outputs_of_the_crane_are_no_less_certain_than_on
     const auto common = TransferStructure::grid(2, 1, Denominators::kCommon, {3}, {2, 2}, {0, 0});
     Vector alone = Vector::Zero(3), together = Vector::Zero(3);
     for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
-        const IdData data = crane_record(seed), position = data.select({1}, {1});
+        const IdData data = crane_data(seed), position = data.select({1}, {1});
         alone += assess(position, srivc(position, single, FitOptions{}.from_rest())).std.head(3) / kSeeds;
         together += assess(data, srivc(data, common, FitOptions{}.from_rest())).std.head(3) / kSeeds;
     }

@@ -12,14 +12,14 @@ namespace test_closed_loop_statistics {
 using namespace dynlab;
 using namespace dynlab::test;
 
-constexpr int kRecords = 500;
+constexpr int kDataSets = 500;
 constexpr double kSigma = 0.03;
 const TransferStructure kPlant = TransferStructure::single(2, 0);
 const Vector kTruth = values({4, 3, 2});
 
 template <class Method>
 EstimatorStudy study_with(const Method& method) {
-    return study_of(kRecords, kTruth, [&](std::uint32_t seed) { return method(loop_record(kSigma, seed)); });
+    return study_of(kDataSets, kTruth, [&](std::uint32_t seed) { return method(loop_data(kSigma, seed)); });
 }
 
 SvfOptions cutoff() {
@@ -73,8 +73,8 @@ TEST(closed_loop_statistics, the_indirect_route_is_consistent) {
 
 TEST(closed_loop_statistics, the_indirect_route_is_consistent_with_an_unstable_plant) {
     const FitOptions options = refined();
-    const EstimatorStudy found = study_of(kRecords, values({3, -4, 2}), [&](std::uint32_t seed) {
-        return clsrivc(held_record(0.02, seed), kPlant, options, {holding_controller()}, LoopRoute::kIndirect);
+    const EstimatorStudy found = study_of(kDataSets, values({3, -4, 2}), [&](std::uint32_t seed) {
+        return clsrivc(held_input_data(0.02, seed), kPlant, options, {holding_controller()}, LoopRoute::kIndirect);
     });
     expect_consistent(found, "unstable plant");
 }

@@ -60,7 +60,7 @@ const TransferFunction& course_system() {
     static const TransferFunction G(Vector{{2}}, Vector{{1, 4, 3}});
     return G;
 }
-IdData course_record(double Ts, Index N, std::uint32_t seed) {
+IdData course_system_data(double Ts, Index N, std::uint32_t seed) {
     const Vector u = random_levels(N, static_cast<Index>(std::lround(1 / Ts)), 5);
     const Vector x = lsim(course_system(), u, Ts);
     return IdData(Matrix(x + 0.2 * RandomStream(seed).normal(N)), Matrix(u), Ts);
@@ -111,7 +111,7 @@ TEST(discrete_statistics, arx_of_fast_samples_says_nothing_of_the_poles) {  // o
 TEST(discrete_statistics, slower_samples_suit_oe_and_sriv) {  // oracle: the known system, its own standard errors
     const TransferFunction truth = c2d(course_system(), 0.2);
     const Vector expected{{truth.den()[1], truth.den()[2], truth.num()[0], truth.num()[1]}};
-    const auto make = [](std::uint32_t seed) { return course_record(0.2, 1500, seed); };
+    const auto make = [](std::uint32_t seed) { return course_system_data(0.2, 1500, seed); };
     for (const auto& method : {oe, sriv}) {
         const Study study = monte_carlo(4, make, [&](const IdData& data) { return method(data, kOutputError, {}); });
         for (Index i = 0; i < 4; ++i) EXPECT_NEAR(study.mean[i], expected[i], 0.5 * study.spread[i]) << i;

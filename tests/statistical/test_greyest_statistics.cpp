@@ -12,7 +12,7 @@ namespace test_greyest_statistics {
 using namespace dynlab;
 using namespace dynlab::test;
 
-constexpr int kRecords = 500;
+constexpr int kDataSets = 500;
 constexpr double kTs = 0.05, kPositionNoise = 5e-4, kAngleNoise = 3e-3;
 
 // Oracle: statistics with fixed seeds. The crane's equations with six unknowns, white noise on position and angle: of
@@ -32,14 +32,14 @@ TEST(greyest_statistics, intervals_hold_the_truth_as_often_as_they_say) {
     options.tolerance = 1e-3;
     options.output_weights = Vector{{1 / kPositionNoise, 1 / kAngleNoise}};
     Vector inside = Vector::Zero(6);
-    for (int run = 0; run < kRecords; ++run) {
+    for (int run = 0; run < kDataSets; ++run) {
         RandomStream random(static_cast<std::uint32_t>(run + 1));
         Matrix y = clean;
         y.col(0) += kPositionNoise * random.normal(u.size());
         y.col(1) += kAngleNoise * random.normal(u.size());
         const GreyFit found = greyest(IdData(y, Matrix(u), kTs), model, options);
         for (Index i = 0; i < 6; ++i)
-            inside[i] += found.intervals(i, 0) <= truth[i] && truth[i] <= found.intervals(i, 1) ? 1. / kRecords : 0;
+            inside[i] += found.intervals(i, 0) <= truth[i] && truth[i] <= found.intervals(i, 1) ? 1. / kDataSets : 0;
     }
     for (Index i = 0; i < 6; ++i) {
         EXPECT_GE(inside[i], 0.92) << model.parameters[static_cast<std::size_t>(i)].name;

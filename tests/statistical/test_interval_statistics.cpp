@@ -14,14 +14,14 @@ namespace test_interval_statistics {
 
 using namespace dynlab;
 
-constexpr int kRecords = 500;
+constexpr int kDataSets = 500;
 constexpr double kTs = 0.1;
 
 Vector input() {
     return prbs(5, 4);
 }
 
-RefittedOutput record(const FittedOutput& truth, double noise, int seed) {
+RefittedOutput simulated_data(const FittedOutput& truth, double noise, int seed) {
     const Vector u = input(), x = lsim(truth.model(), u, kTs);
     const Vector y = x + noise * RandomStream(static_cast<std::uint32_t>(seed)).normal(u.size());
     return RefittedOutput(IdData(Matrix(y), Matrix(u), kTs), truth);
@@ -29,7 +29,7 @@ RefittedOutput record(const FittedOutput& truth, double noise, int seed) {
 
 struct Coverage {
     int inside = 0;
-    double percent() const { return 100.0 * inside / kRecords; }
+    double percent() const { return 100.0 * inside / kDataSets; }
 };
 
 /// In per cent, of the intervals of a1, b0, the gain and the time constant.
@@ -37,15 +37,15 @@ Vector bootstrap_coverage(BootstrapKind kind) {
     const FittedOutput truth{TransferStructure::single(1, 0), {}, Vector{{1.5, 2}}};
     const Vector values{{1.5, 2, 2 / 1.5, 1 / 1.5}};
     Vector inside = Vector::Zero(4);
-    for (int seed = 1; seed <= kRecords; ++seed) {
+    for (int seed = 1; seed <= kDataSets; ++seed) {
         BootstrapOptions options;
         options.kind = kind;
         options.runs = 120;
         options.seed = static_cast<std::uint32_t>(1000 * seed);
-        const Bootstrap found = bootstrap(record(truth, 0.5, seed), options);
+        const Bootstrap found = bootstrap(simulated_data(truth, 0.5, seed), options);
         for (Index i = 0; i < 4; ++i) inside[i] += found.low[i] <= values[i] && values[i] <= found.high[i];
     }
-    return 100 * inside / kRecords;
+    return 100 * inside / kDataSets;
 }
 
 TEST(interval_statistics, residual_bootstrap_holds_the_truth) {
@@ -62,10 +62,10 @@ TEST(interval_statistics, parametric_bootstrap_holds_the_truth) {
 
 double profile_coverage(const FittedOutput& truth, double noise, const std::string& name) {
     Coverage coverage;
-    for (int seed = 1; seed <= kRecords; ++seed) {
+    for (int seed = 1; seed <= kDataSets; ++seed) {
         ProfileOptions options;
         options.points = 9;
-        const Profile found = profile_likelihood(record(truth, noise, seed), name, options);
+        const Profile found = profile_likelihood(simulated_data(truth, noise, seed), name, options);
         const double value = truth.theta[truth.place_of(name)];
         coverage.inside += (!found.low || *found.low <= value) && (!found.high || value <= *found.high);
     }

@@ -33,8 +33,8 @@ Runs runs_of_rivc(const ColoredProblem& problem, const NoiseOrders& orders) {
     const Index nc = orders.nc, nd = orders.nd;
     Runs runs{Matrix(kRuns, 3 + nc + nd), Vector::Zero(3 + nc + nd)};
     for (int run = 0; run < kRuns; ++run) {
-        const Fit result =
-            rivc(problem.record(static_cast<std::uint32_t>(run + 1)), kStructure, orders, FitOptions{}.from_rest());
+        const Fit result = rivc(problem.simulated_data(static_cast<std::uint32_t>(run + 1)), kStructure, orders,
+                                FitOptions{}.from_rest());
         EXPECT_EQ(result.termination, Termination::kConverged) << run + 1;
         runs.values.row(run) << result.theta.transpose(), result.noise->C.tail(nc).transpose(),
             result.noise->D.tail(nd).transpose();
@@ -90,7 +90,7 @@ TEST(rivc_statistics, a_noise_model_pays_where_theory_says) {
     Runs plain{Matrix(kRuns, 3), {}};
     for (int run = 0; run < kRuns; ++run)
         plain.values.row(run) =
-            srivc(problem.record(static_cast<std::uint32_t>(run + 1)), kStructure, FitOptions{}.from_rest())
+            srivc(problem.simulated_data(static_cast<std::uint32_t>(run + 1)), kStructure, FitOptions{}.from_rest())
                 .theta.transpose();
     for (Index i = 0; i < 3; ++i) {
         EXPECT_LT(bound[i], 0.95 * of_srivc[i]) << i;

@@ -146,20 +146,20 @@ inline Vector noise_of(RandomExperiment& chance, const Vector& x) {
     return chance.noise * deviation(x) * chance.random.normal(x.size());
 }
 
-inline IdData record_of(RandomExperiment& chance, const Vector& u, const Vector& x) {
+inline IdData data_of(RandomExperiment& chance, const Vector& u, const Vector& x) {
     return IdData(Matrix(x + noise_of(chance, x)), Matrix(u), chance.Ts);
 }
 
 using InputOf = Vector (*)(RandomExperiment&);
 
-inline IdData clean_record(InputOf input, std::uint32_t seed) {
+inline IdData clean_data(InputOf input, std::uint32_t seed) {
     RandomExperiment chance = random_experiment(seed);
     const Vector u = input(chance);
-    return record_of(chance, u, lsim(chance.G, u, chance.Ts));
+    return data_of(chance, u, lsim(chance.G, u, chance.Ts));
 }
 
 /// The clock of each sample is late or early by up to 8 % of a step; the system is solved exactly at those instants.
-inline IdData jittered_record(std::uint32_t seed) {
+inline IdData jittered_data(std::uint32_t seed) {
     RandomExperiment chance = random_experiment(seed);
     const Vector u = chance.coin() ? prbs_input(chance) : multisine_input(chance);
     const double jitter = chance.between(0.005, 0.08);
@@ -174,17 +174,17 @@ inline IdData jittered_record(std::uint32_t seed) {
 }
 
 /// Tens of thousands of samples of a slow system.
-inline IdData long_record(std::uint32_t seed) {
+inline IdData long_data(std::uint32_t seed) {
     RandomExperiment chance = random_experiment(seed);
     chance.N = chance.whole(20000, 40000);
     if (chance.coin()) chance.Ts /= chance.log_between(3, 20);
     const Vector u = chance.coin() ? prbs_input(chance) : staircase_input(chance);
-    return record_of(chance, u, lsim(chance.G, u, chance.Ts));
+    return data_of(chance, u, lsim(chance.G, u, chance.Ts));
 }
 
 /// Data with noise and a fault that `spoil` puts into the input or the noise-free output.
-inline IdData spoilt_record(std::uint32_t seed, bool many_levels,
-                            const std::function<void(RandomExperiment&, Vector& u, Vector& x)>& spoil) {
+inline IdData disturbed_data(std::uint32_t seed, bool many_levels,
+                             const std::function<void(RandomExperiment&, Vector& u, Vector& x)>& spoil) {
     RandomExperiment chance = random_experiment(seed);
     const bool sines = chance.coin();
     const Vector u = sines ? multisine_input(chance) : many_levels ? staircase_input(chance) : prbs_input(chance);
@@ -194,15 +194,15 @@ inline IdData spoilt_record(std::uint32_t seed, bool many_levels,
     return IdData(Matrix(x + noise * chance.random.normal(x.size())), Matrix(seen), chance.Ts);
 }
 
-inline IdData drifting_record(std::uint32_t seed) {
-    return spoilt_record(seed, false, [](RandomExperiment& chance, Vector&, Vector& x) {
+inline IdData drifting_data(std::uint32_t seed) {
+    return disturbed_data(seed, false, [](RandomExperiment& chance, Vector&, Vector& x) {
         const double rise = chance.sign() * chance.between(0.7, 3) * deviation(x);
         x += Vector::LinSpaced(x.size(), 0, rise);
     });
 }
 
-inline IdData random_walk_record(std::uint32_t seed) {
-    return spoilt_record(seed, false, [](RandomExperiment& chance, Vector&, Vector& x) {
+inline IdData random_walk_data(std::uint32_t seed) {
+    return disturbed_data(seed, false, [](RandomExperiment& chance, Vector&, Vector& x) {
         const double end = chance.between(0.7, 3) * deviation(x);  // standard deviation of the last sample
         Vector walk = end / std::sqrt(static_cast<double>(x.size())) * chance.random.normal(x.size());
         for (Index k = 1; k < walk.size(); ++k) walk[k] += walk[k - 1];
@@ -210,7 +210,7 @@ inline IdData random_walk_record(std::uint32_t seed) {
     });
 }
 
-inline IdData square_law_record(std::uint32_t seed) {
+inline IdData square_law_data(std::uint32_t seed) {
     RandomExperiment chance = random_experiment(seed);
     const Vector u = chance.coin() ? multisine_input(chance) : staircase_input(chance);
     const double share = chance.sign() * chance.between(0.15, 0.5);
@@ -219,16 +219,16 @@ inline IdData square_law_record(std::uint32_t seed) {
         return v.array() + share * v.array().square() / deviation(v);
     };
     const Vector x = at_input ? lsim(chance.G, bent(u), chance.Ts) : bent(lsim(chance.G, u, chance.Ts));
-    return record_of(chance, u, x);
+    return data_of(chance, u, x);
 }
 
-inline IdData dead_band_record(std::uint32_t seed) {
+inline IdData dead_band_data(std::uint32_t seed) {
     RandomExperiment chance = random_experiment(seed);
     const Vector u = chance.coin() ? multisine_input(chance) : staircase_input(chance);
     const double width = chance.between(0.15, 0.4) * u.cwiseAbs().maxCoeff();
     Vector acting(u.size());
     for (Index k = 0; k < u.size(); ++k) acting[k] = std::copysign(std::max(0.0, std::abs(u[k]) - width), u[k]);
-    return record_of(chance, u, lsim(chance.G, acting, chance.Ts));
+    return data_of(chance, u, lsim(chance.G, acting, chance.Ts));
 }
 
 /// The play operator.
@@ -239,17 +239,17 @@ inline Vector with_backlash(const Vector& x, double half_width) {
     return y;
 }
 
-inline IdData backlash_record(std::uint32_t seed) {
+inline IdData backlash_data(std::uint32_t seed) {
     RandomExperiment chance = random_experiment(seed);
     const Vector u = chance.coin() ? multisine_input(chance) : staircase_input(chance);
     const double width = chance.between(0.1, 0.3);
     const bool at_input = chance.coin();
     const auto loose = [width](const Vector& v) { return with_backlash(v, width * v.cwiseAbs().maxCoeff()); };
     const Vector x = at_input ? lsim(chance.G, loose(u), chance.Ts) : loose(lsim(chance.G, u, chance.Ts));
-    return record_of(chance, u, x);
+    return data_of(chance, u, x);
 }
 
-inline IdData clipped_record(std::uint32_t seed, bool noise_before) {
+inline IdData clipped_data(std::uint32_t seed, bool noise_before) {
     RandomExperiment chance = random_experiment(seed);
     const Vector u = chance.coin() ? multisine_input(chance) : staircase_input(chance);
     Vector x = lsim(chance.G, u, chance.Ts);
@@ -261,15 +261,15 @@ inline IdData clipped_record(std::uint32_t seed, bool noise_before) {
     if (!noise_before) x += noise;
     return IdData(Matrix(x), Matrix(u), chance.Ts);
 }
-inline IdData saturated_record(std::uint32_t seed) {
-    return clipped_record(seed, true);
+inline IdData saturated_data(std::uint32_t seed) {
+    return clipped_data(seed, true);
 }
-inline IdData saturated_under_noise_record(std::uint32_t seed) {
-    return clipped_record(seed, false);
+inline IdData saturated_under_noise_data(std::uint32_t seed) {
+    return clipped_data(seed, false);
 }
 
 /// A digital proportional or proportional and integral controller, which acts at the next sample.
-inline IdData feedback_record(std::uint32_t seed) {
+inline IdData feedback_data(std::uint32_t seed) {
     RandomExperiment chance = random_experiment(seed);
     const Vector reference = chance.coin() ? prbs_input(chance) : staircase_input(chance);
     const double size = std::abs(chance.G.dc_gain());
@@ -293,32 +293,32 @@ inline IdData feedback_record(std::uint32_t seed) {
     return IdData(Matrix(y), Matrix(u), chance.Ts);
 }
 
-inline IdData integrator_record(std::uint32_t seed) {
+inline IdData integrator_data(std::uint32_t seed) {
     RandomExperiment chance = random_experiment(seed);
     const Vector u = chance.coin() ? multisine_input(chance) : prbs_input(chance);
     const TransferFunction integrator(Vector{{1.0}}, Vector{{1.0, 0.0}});
     const TransferFunction lag(Vector{{1.0}}, Vector{{chance.between(0.2, 1), 1.0}});
     const TransferFunction G = integrator * (chance.coin() ? lag : TransferFunction(Vector{{1.0}}, Vector{{1.0}}));
-    return record_of(chance, u, lsim(TransferFunction(G.num() * chance.log_between(0.1, 10), G.den()), u, chance.Ts));
+    return data_of(chance, u, lsim(TransferFunction(G.num() * chance.log_between(0.1, 10), G.den()), u, chance.Ts));
 }
 
-inline IdData slowly_sampled_record(std::uint32_t seed) {
+inline IdData slowly_sampled_data(std::uint32_t seed) {
     RandomExperiment chance = random_experiment(seed);
     const double delay = chance.G.delay() / chance.Ts;
     chance.Ts = 2 * std::numbers::pi / chance.between(2, 4.5);
     chance.G = chance.G.with_delay(std::round(delay / 4) * chance.Ts);
     const Vector u = chance.coin() ? prbs_input(chance) : staircase_input(chance);
-    return record_of(chance, u, lsim(chance.G, u, chance.Ts));
+    return data_of(chance, u, lsim(chance.G, u, chance.Ts));
 }
 
-inline IdData offset_record(std::uint32_t seed) {
-    return spoilt_record(seed, false, [](RandomExperiment& chance, Vector&, Vector& x) {
+inline IdData offset_data(std::uint32_t seed) {
+    return disturbed_data(seed, false, [](RandomExperiment& chance, Vector&, Vector& x) {
         x.array() += chance.sign() * chance.log_between(0.3, 20) * deviation(x);
     });
 }
 
 /// Cut out where the output is far from where it would rest, and from zero.
-inline IdData running_start_record(std::uint32_t seed) {
+inline IdData running_start_data(std::uint32_t seed) {
     RandomExperiment chance = random_experiment(seed);
     chance.N += 400;
     const Vector u = chance.coin() ? multisine_input(chance) : prbs_input(chance);
@@ -326,31 +326,31 @@ inline IdData running_start_record(std::uint32_t seed) {
     const Vector distance = (x - chance.G.dc_gain() * u).cwiseAbs();
     Index first = 200;
     while (first < 399 && (distance[first] < 1.2 * deviation(x) || std::abs(x[first]) < 0.8 * deviation(x))) ++first;
-    return record_of(chance, u, x).range(first + 1, chance.N);
+    return data_of(chance, u, x).range(first + 1, chance.N);
 }
 
-inline IdData outlier_record(std::uint32_t seed) {
-    return spoilt_record(seed, false, [](RandomExperiment& chance, Vector&, Vector& x) {
+inline IdData outlier_data(std::uint32_t seed) {
+    return disturbed_data(seed, false, [](RandomExperiment& chance, Vector&, Vector& x) {
         const double size = deviation(x);
         for (Index i = chance.whole(2, 8); i > 0; --i)
             x[chance.whole(0, x.size() - 1)] += chance.sign() * chance.between(2, 6) * size;
     });
 }
 
-inline IdData exchanged_record(std::uint32_t seed) {
-    IdData data = clean_record(seed % 2 == 0 ? multisine_input : prbs_input, seed);
+inline IdData exchanged_data(std::uint32_t seed) {
+    IdData data = clean_data(seed % 2 == 0 ? multisine_input : prbs_input, seed);
     std::swap(data.experiments[0].u, data.experiments[0].y);
     return data;
 }
 
-inline IdData changing_gain_record(std::uint32_t seed) {
-    return spoilt_record(seed, false, [](RandomExperiment& chance, Vector&, Vector& x) {
+inline IdData changing_gain_data(std::uint32_t seed) {
+    return disturbed_data(seed, false, [](RandomExperiment& chance, Vector&, Vector& x) {
         x.array() *= Vector::LinSpaced(x.size(), 1, chance.between(1.6, 3)).array();
     });
 }
 
 /// Noise that forgets within 20 samples.
-inline IdData slow_noise_record(std::uint32_t seed) {
+inline IdData slow_noise_data(std::uint32_t seed) {
     RandomExperiment chance = random_experiment(seed);
     const Vector u = chance.coin() ? prbs_input(chance) : staircase_input(chance);
     const Vector x = lsim(chance.G, u, chance.Ts);
@@ -360,7 +360,7 @@ inline IdData slow_noise_record(std::uint32_t seed) {
 }
 
 /// An angle within one turn, in degrees or radians; its noise is wrapped with it.
-inline IdData wrapped_record(std::uint32_t seed) {
+inline IdData wrapped_data(std::uint32_t seed) {
     RandomExperiment chance = random_experiment(seed);
     const Vector u = chance.coin() ? multisine_input(chance) : prbs_input(chance);
     Vector x = lsim(chance.G, u, chance.Ts);
@@ -373,7 +373,7 @@ inline IdData wrapped_record(std::uint32_t seed) {
 
 /// The input is logged one sample late.
 /// Sampled so that one sample is more than what a zero more or less makes up for.
-inline IdData late_input_record(std::uint32_t seed) {
+inline IdData late_input_data(std::uint32_t seed) {
     RandomExperiment chance = random_experiment(seed);
     chance.Ts = 2 * std::numbers::pi / chance.between(8, 12);
     chance.G = chance.G.with_delay(0);
@@ -381,10 +381,10 @@ inline IdData late_input_record(std::uint32_t seed) {
     const Vector u = chance.coin() ? prbs_input(chance) : staircase_input(chance);
     const Vector x = lsim(chance.G, u, chance.Ts);
     const Index N = u.size() - 1;
-    return record_of(chance, u.head(N), x.tail(N));
+    return data_of(chance, u.head(N), x.tail(N));
 }
 
-inline IdData loaded_integrator_record(std::uint32_t seed) {
+inline IdData loaded_integrator_data(std::uint32_t seed) {
     RandomExperiment chance = random_experiment(seed);
     Vector u = chance.coin() ? multisine_input(chance) : prbs_input(chance);
     u.array() -= u.mean();
@@ -397,38 +397,38 @@ inline IdData loaded_integrator_record(std::uint32_t seed) {
 
 struct CorpusKind {
     std::string name;
-    std::function<IdData(std::uint32_t seed)> record;
+    std::function<IdData(std::uint32_t seed)> simulated_data;
     std::vector<std::string> codes;  ///< one of them must be found; none for clean data
 };
 
 inline std::vector<CorpusKind> clean_kinds() {
-    const auto with = [](InputOf input) { return [input](std::uint32_t seed) { return clean_record(input, seed); }; };
+    const auto with = [](InputOf input) { return [input](std::uint32_t seed) { return clean_data(input, seed); }; };
     return {{"prbs", with(prbs_input), {}},           {"multisine", with(multisine_input), {}},
             {"steps", with(steps_input), {}},         {"stairs", with(stairs_input), {}},
             {"staircase", with(staircase_input), {}}, {"quantized sine", with(quantized_sine_input), {}},
-            {"jittered clock", jittered_record, {}},  {"long", long_record, {}},
-            {"slow noise", slow_noise_record, {}}};
+            {"jittered clock", jittered_data, {}},    {"long", long_data, {}},
+            {"slow noise", slow_noise_data, {}}};
 }
 
 inline std::vector<CorpusKind> faulty_kinds() {
-    return {{"drift", drifting_record, {"drift"}},
-            {"random walk", random_walk_record, {"random_walk", "drift"}},
-            {"square law", square_law_record, {"nonlinear"}},
-            {"dead band", dead_band_record, {"nonlinear"}},
-            {"backlash", backlash_record, {"nonlinear"}},
-            {"saturated", saturated_record, {"saturation"}},
-            {"saturated, noise", saturated_under_noise_record, {"saturation", "nonlinear"}},
-            {"feedback", feedback_record, {"feedback"}},
-            {"integrator", integrator_record, {"integrator"}},
-            {"slow sampling", slowly_sampled_record, {"slow_sampling"}},
-            {"offset", offset_record, {"offset"}},
-            {"running start", running_start_record, {"running_start"}},
-            {"outliers", outlier_record, {"outliers"}},
-            {"exchanged", exchanged_record, {"causality"}},
-            {"changing gain", changing_gain_record, {"changing_gain"}},
-            {"wrapped", wrapped_record, {"wrapped"}},
-            {"late input", late_input_record, {"late_input"}},
-            {"loaded integrator", loaded_integrator_record, {"load"}}};
+    return {{"drift", drifting_data, {"drift"}},
+            {"random walk", random_walk_data, {"random_walk", "drift"}},
+            {"square law", square_law_data, {"nonlinear"}},
+            {"dead band", dead_band_data, {"nonlinear"}},
+            {"backlash", backlash_data, {"nonlinear"}},
+            {"saturated", saturated_data, {"saturation"}},
+            {"saturated, noise", saturated_under_noise_data, {"saturation", "nonlinear"}},
+            {"feedback", feedback_data, {"feedback"}},
+            {"integrator", integrator_data, {"integrator"}},
+            {"slow sampling", slowly_sampled_data, {"slow_sampling"}},
+            {"offset", offset_data, {"offset"}},
+            {"running start", running_start_data, {"running_start"}},
+            {"outliers", outlier_data, {"outliers"}},
+            {"exchanged", exchanged_data, {"causality"}},
+            {"changing gain", changing_gain_data, {"changing_gain"}},
+            {"wrapped", wrapped_data, {"wrapped"}},
+            {"late input", late_input_data, {"late_input"}},
+            {"loaded integrator", loaded_integrator_data, {"load"}}};
 }
 
 }  // namespace dynlab::test

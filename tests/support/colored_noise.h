@@ -33,7 +33,7 @@ struct ColoredProblem {
         const double of_x = std::sqrt((x.array() - x.mean()).square().mean());
         return of_x * std::pow(10, -15.0 / 20) / arma_filtered(C, D, Vector::Unit(1000, 0)).norm();
     }
-    IdData record(std::uint32_t seed) const {
+    IdData simulated_data(std::uint32_t seed) const {
         return IdData(Matrix(x + sigma() * arma_signal(C, D, u.size(), seed)), Matrix(u), 0.05);
     }
 };

@@ -15,20 +15,20 @@ struct EstimatorStudy {
 
 /// `estimate(k)` returns the Fit of data set k, counted from 1.
 template <class Estimate>
-EstimatorStudy study_of(int records, const Vector& truth, const Estimate& estimate) {
-    Matrix theta(records, truth.size()), std(records, truth.size());
-    for (int k = 0; k < records; ++k) {
+EstimatorStudy study_of(int data_sets, const Vector& truth, const Estimate& estimate) {
+    Matrix theta(data_sets, truth.size()), std(data_sets, truth.size());
+    for (int k = 0; k < data_sets; ++k) {
         const Fit fit = estimate(static_cast<std::uint32_t>(k + 1));
         theta.row(k) = fit.theta.transpose();
         std.row(k) = fit.std.transpose();
     }
     const Vector mean = theta.colwise().mean(), off = mean - truth;
     const Matrix around = theta.rowwise() - mean.transpose();
-    const Matrix covariance = around.transpose() * around / (records - 1);
+    const Matrix covariance = around.transpose() * around / (data_sets - 1);
     const Vector scatter = covariance.diagonal().cwiseSqrt();
-    const double root = std::sqrt(static_cast<double>(records));
+    const double root = std::sqrt(static_cast<double>(data_sets));
     return {root * off.cwiseQuotient(scatter), root * std::sqrt(off.dot(solve_by_lu(covariance, off).x.col(0))),
-            (std.colwise().squaredNorm().transpose() / records).cwiseSqrt().cwiseQuotient(scatter)};
+            (std.colwise().squaredNorm().transpose() / data_sets).cwiseSqrt().cwiseQuotient(scatter)};
 }
 
 }  // namespace dynlab::test

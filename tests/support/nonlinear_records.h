@@ -7,7 +7,7 @@ namespace dynlab::test {
 /// States of an autonomous system every `step` s, by Runge and Kutta's fourth-order method with 50 steps between
 /// samples.
 template <class Rate>
-inline IdData autonomous_record(Rate rate, Vector x, double step, Index N) {
+inline IdData autonomous_data(Rate rate, Vector x, double step, Index N) {
     Matrix states(N, x.size());
     const double h = step / 50;
     for (Index k = 0; k < N; ++k) {
@@ -21,8 +21,8 @@ inline IdData autonomous_record(Rate rate, Vector x, double step, Index N) {
 }
 
 /// Lorenz (1963): sigma 10, rho 28, beta 8/3.
-inline IdData lorenz_record(double step, Index N) {
-    return autonomous_record(
+inline IdData lorenz_data(double step, Index N) {
+    return autonomous_data(
         [](const Vector& x) {
             return Vector{{10 * (x[1] - x[0]), x[0] * (28 - x[2]) - x[1], x[0] * x[1] - 8.0 / 3 * x[2]}};
         },
@@ -30,8 +30,8 @@ inline IdData lorenz_record(double step, Index N) {
 }
 
 /// Lotka and Volterra: prey 1.1 x - 0.4 x y, predators 0.1 x y - 0.4 y.
-inline IdData lotka_volterra_record(double step, Index N) {
-    return autonomous_record(
+inline IdData lotka_volterra_data(double step, Index N) {
+    return autonomous_data(
         [](const Vector& x) {
             return Vector{{1.1 * x[0] - 0.4 * x[0] * x[1], 0.1 * x[0] * x[1] - 0.4 * x[1]}};
         },

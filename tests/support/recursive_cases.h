@@ -26,7 +26,7 @@ struct RecursiveCase {
 
 /// Regular and irregular sampling, held and straight inputs, whole delays, direct terms, one to four poles.
 inline std::vector<RecursiveCase> recursive_cases() {
-    const IdData course = course_record(0.1, 3);
+    const IdData course = course_system_data(0.1, 3);
     IdData straight = course;
     straight.hold = Hold::kFoh;
     Vector t = course.time();
@@ -40,11 +40,11 @@ inline std::vector<RecursiveCase> recursive_cases() {
             {"straight lines", straight, TransferStructure::single(2, 1), 3},
             {"irregular", irregular, TransferStructure::single(2, 0), 3},
             {"one pole", course, TransferStructure::single(1, 0), 2},
-            {"four poles", delayed_record(), TransferStructure::single(4, 1, 0.6), 2}};
+            {"four poles", delayed_data(), TransferStructure::single(4, 1, 0.6), 2}};
 }
 
 /// 2/(s + 1) whose numerator jumps to 4 in the middle, prbs(7, 20), Ts = 0.05 s, with a little noise.
-inline IdData jumping_record() {
+inline IdData jumping_data() {
     const Vector u = prbs(7, 20);
     Vector gain = Vector::Constant(u.size(), 2);
     gain.tail(u.size() / 2).setConstant(4);

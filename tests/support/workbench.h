@@ -27,7 +27,7 @@ class workbench_page : public testing::Test {
         return std::make_unique<PageProgram>(words, std::filesystem::path(), folder.path());
     }
     /// A second-order plant with noise, as a user's CSV file.
-    void write_record(const std::string& name = "plant.csv") const {
+    void write_data_set(const std::string& name = "plant.csv") const {
         std::ofstream out(file(name));
         out << "time (s),valve (%),level (cm)\n";
         double x = 0, v = 0;
@@ -44,9 +44,9 @@ class workbench_page : public testing::Test {
         return browser.becomes_true(
             "['up to date', 'à jour', 'stopped at an error'].includes(document.getElementById('state').textContent)");
     }
-    /// Opens a session of the data of write_record() and waits for its picture.
+    /// Opens a session of the data of write_data_set() and waits for its picture.
     std::unique_ptr<PageProgram> open(Browser& browser) const {
-        write_record();
+        write_data_set();
         auto program = app("plant.csv");
         browser.open(program->address());
         EXPECT_TRUE(view_appears(browser, "record"));

@@ -108,8 +108,8 @@ std::vector<EstimatorForm> estimator_forms(const Reader& reader) {
             const FunctionEntry* const function = find_function(name);
             if (function == nullptr) continue;
             const std::string signature = function->signature;
-            const bool from_record = arguments_of(signature).front() == "data" && signature.ends_with("-> G");
-            if (from_record) forms.push_back(form_of(method, *function, reader));
+            const bool from_data = arguments_of(signature).front() == "data" && signature.ends_with("-> G");
+            if (from_data) forms.push_back(form_of(method, *function, reader));
         }
     std::ranges::stable_sort(
         forms, [](const EstimatorForm& one, const EstimatorForm& other) { return rank_of(one) < rank_of(other); });

@@ -49,8 +49,8 @@ bool sounds_like(const std::string& name, const Words& words) {
     });
 }
 
-RecordColumn column_of(const std::string& name, const std::string& unit, const Vector& numbers, Index samples) {
-    RecordColumn column{name, unit, "", 0, 0, "", true};
+DataColumn column_of(const std::string& name, const std::string& unit, const Vector& numbers, Index samples) {
+    DataColumn column{name, unit, "", 0, 0, "", true};
     const auto finite = numbers.array().isFinite();
     if (numbers.size() != samples)
         column.trouble = fmt::format("{} of {} values", numbers.size(), samples);
@@ -77,8 +77,8 @@ class Columns {
         for (const std::string& name : names) collect(name, "", loaded.variables.at(name));
     }
 
-    std::vector<RecordColumn> offered() const {
-        std::vector<RecordColumn> columns;
+    std::vector<DataColumn> offered() const {
+        std::vector<DataColumn> columns;
         std::string guessed = signals_.empty() ? "" : signals_.front().group;  // the struct whose signals get roles
         std::map<std::string, Index> lengths;                                  // of the groups
         std::string time;
@@ -90,7 +90,7 @@ class Columns {
             const auto unit = loaded_.units.find(signal.name);
             columns.push_back(
                 column_of(signal.name, unit == loaded_.units.end() ? "" : unit->second, signal.numbers, samples));
-            RecordColumn& column = columns.back();
+            DataColumn& column = columns.back();
             if (signal.group != guessed) continue;
             const std::string own = signal.group.empty() ? signal.name : signal.name.substr(signal.group.size() + 1);
             if (signal.group.empty() ? time == own : own == "t" || own == "time")
@@ -159,11 +159,11 @@ class Columns {
 
     /// Assigns roles if the names show none: a clock may come first; of the other columns the first is the input, the
     /// last the output.
-    void guess_rest(std::vector<RecordColumn>& columns) const {
+    void guess_rest(std::vector<DataColumn>& columns) const {
         const auto none = [&](const char* role) {
-            return std::ranges::none_of(columns, [&](const RecordColumn& column) { return column.role == role; });
+            return std::ranges::none_of(columns, [&](const DataColumn& column) { return column.role == role; });
         };
-        const auto free = [](const RecordColumn& column) { return column.role.empty() && column.usable; };
+        const auto free = [](const DataColumn& column) { return column.role.empty() && column.usable; };
         if (none("time"))
             if (const auto first = std::ranges::find_if(columns, free);
                 first != columns.end() && counts_evenly(first->name))
@@ -189,12 +189,12 @@ std::string in_one_line(std::string text) {
 
 }  // namespace
 
-RecordChoice summarize_record(const std::string& data, bool tells) {
+DataChoice describe_data(const std::string& data, bool tells) {
     const LoadedData loaded = load_data(data, ".");
     return {data, Columns(loaded).offered(), tells ? summarize_data(data, {}).text : ""};
 }
 
-std::string record_lines(const RecordOrder& order) {
+std::string loading_lines(const DataSelection& order) {
     if (!is_variable_name(order.name))
         throw EnvironmentError(
             "the name of a data set must consist of letters, digits and _. It must not start with a digit or be a Lua "
@@ -210,9 +210,9 @@ std::string record_lines(const RecordOrder& order) {
     return recording.loading(file) + fmt::format("{} = {}\n", order.name, recording.data(file, order.outputs));
 }
 
-RecordOrder suggested_order(const RecordChoice& choice) {
-    RecordOrder order{choice.data, {}, {}, "", 0, "data", {}};
-    for (const RecordColumn& column : choice.columns) {
+DataSelection suggested_order(const DataChoice& choice) {
+    DataSelection order{choice.data, {}, {}, "", 0, "data", {}};
+    for (const DataColumn& column : choice.columns) {
         if (column.role == "input") order.inputs.push_back(column.name);
         if (column.role == "output") order.outputs.push_back(column.name);
         if (column.role == "time") order.time = column.name;
@@ -222,7 +222,7 @@ RecordOrder suggested_order(const RecordChoice& choice) {
     return order;
 }
 
-std::string with_record(const std::string& source, const RecordOrder& order, const std::string& lines) {
+std::string with_data(const std::string& source, const DataSelection& order, const std::string& lines) {
     const PercentScript script = parse_percent_script(source, "session.lua");
     if (std::ranges::none_of(script.cells, [](const Cell& cell) { return cell.kind == Cell::Kind::kCode; })) {
         const std::string& language = script.header.language;

@@ -39,12 +39,12 @@ struct Subject {
 };
 
 /// The first data set that a lesson loads.
-std::string record_of_lesson(const Lesson& lesson) {
+std::string data_of_lesson(const Lesson& lesson) {
     static const RE2 kLoad(R"(\bload\("([^"]+)\"\))", RE2::Latin1);
-    std::string record;
-    if (!RE2::PartialMatch(read_text(lesson.script()), kLoad, &record))
+    std::string data_set;
+    if (!RE2::PartialMatch(read_text(lesson.script()), kLoad, &data_set))
         throw EnvironmentError("lesson {} does not load a data set; give a data file or a data set", lesson.slug);
-    return record;
+    return data_set;
 }
 
 fs::path session_of(const std::string& name) {
@@ -60,11 +60,11 @@ Subject subject_of(const std::string& words) {
     }
     if (is_data_file(words) && !fs::exists(words)) throw EnvironmentError("file not found: {}", words);
     const std::vector<std::string> sets = dataset_names();
-    const bool is_record = fs::exists(words) || std::find(sets.begin(), sets.end(), words) != sets.end();
-    if (is_record) return {session_of(words), words, "Identification from " + fs::path(words).filename().string()};
+    const bool is_data = fs::exists(words) || std::find(sets.begin(), sets.end(), words) != sets.end();
+    if (is_data) return {session_of(words), words, "Identification from " + fs::path(words).filename().string()};
     const Lesson lesson = find_lesson(words);
-    const std::string record = record_of_lesson(lesson);
-    return {session_of(lesson.slug), record, "Identification from " + fs::path(record).stem().string()};
+    const std::string data_set = data_of_lesson(lesson);
+    return {session_of(lesson.slug), data_set, "Identification from " + fs::path(data_set).stem().string()};
 }
 
 /// A data set that the page has to ask about, and why; whether the session is new.
@@ -74,10 +74,10 @@ struct Opening {
 };
 DYNLAB_DESCRIBE(Opening, data, words, fresh)
 
-/// record_lines(), with advice for the user of the page about a file without a sampling time.
-std::string lines_of_order(const RecordOrder& order) {
+/// loading_lines(), with advice for the user of the page about a file without a sampling time.
+std::string lines_of_order(const DataSelection& order) {
     try {
-        return record_lines(order);
+        return loading_lines(order);
     } catch (const UnknownSampling& error) {
         throw EnvironmentError("{}; select the time column, or enter the sampling time below", error.message());
     }
@@ -87,7 +87,7 @@ std::string lines_of_order(const RecordOrder& order) {
 std::string first_script(const Subject& subject, Opening& opening) {
     std::string lines;
     if (!subject.data.empty()) {
-        const RecordChoice choice = summarize_record(subject.data, false);
+        const DataChoice choice = describe_data(subject.data, false);
         try {
             lines = lines_of_order(suggested_order(choice));
         } catch (const EnvironmentError& error) {
@@ -141,7 +141,7 @@ fs::path free_name(const std::string& requested) {
 
 /// Data sets that a page may inspect before the script contains them, because the user can read them anyway: data sets,
 /// files in the folder, and the session's subject.
-const std::string& checked_record(const std::string& data, const std::string& subject) {
+const std::string& checked_data(const std::string& data, const std::string& subject) {
     const std::vector<std::string> sets = dataset_names();
     const fs::path within = fs::weakly_canonical(data).lexically_relative(fs::current_path());
     const bool leads_out = within.empty() || *within.begin() == "..";
@@ -150,7 +150,7 @@ const std::string& checked_record(const std::string& data, const std::string& su
                            data);
 }
 
-void serve_records(WebServer& server, WorkbenchSession& bench, const std::string& subject) {
+void serve_data(WebServer& server, WorkbenchSession& bench, const std::string& subject) {
     server.on_get("/datasets", [](const PageRequest&) {
         nlohmann::json list = dataset_names();
         for (const auto& entry : fs::directory_iterator(".", fs::directory_options::skip_permission_denied))
@@ -158,18 +158,18 @@ void serve_records(WebServer& server, WorkbenchSession& bench, const std::string
         return PageReply{list.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), kJson};
     });
     server.on_get("/columns", [&](const PageRequest& asked) {
-        return PageReply{json_of(summarize_record(checked_record(asked.parameter("data"), subject))), kJson};
+        return PageReply{json_of(describe_data(checked_data(asked.parameter("data"), subject))), kJson};
     });
     server.on_post("/upload", [](const PageRequest& asked) {
         const fs::path file = free_name(asked.parameter("name"));
         write_file_atomically(file, asked.body);
-        return PageReply{json_of(summarize_record(file.string())), kJson};
+        return PageReply{json_of(describe_data(file.string())), kJson};
     });
     server.on_post("/record", [&](const PageRequest& asked) {
-        const RecordOrder order = from_json<RecordOrder>(asked.body);
-        checked_record(order.data, subject);
+        const DataSelection order = from_json<DataSelection>(asked.body);
+        checked_data(order.data, subject);
         const std::string lines = lines_of_order(order);
-        bench.put([&](const std::string& script) { return with_record(script, order, lines); });
+        bench.put([&](const std::string& script) { return with_data(script, order, lines); });
         return done();
     });
 }
@@ -240,7 +240,7 @@ void serve_workbench(const WorkbenchOptions& options) {
     const StopsBeforeServer stops{background};
     serve_page_files(server, "workbench.html");
     take_script_orders(server, bench);
-    serve_records(server, bench, subject.data);
+    serve_data(server, bench, subject.data);
     serve_help(server, bench);
     serve_documents(server, bench, background, permissions);
     server.on_post("/allow", [&](const PageRequest&) {

@@ -28,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr const char* kViewsOfRecords[] = {"record", "spectrum", "advice"};
+constexpr const char* kViewsOfData[] = {"record", "spectrum", "advice"};
 constexpr std::size_t kMaxPrinted = 4000;  // bytes of a cell that are shown
 constexpr int kLookForInterrupt = 1000;    // ms
 
@@ -231,7 +231,7 @@ std::optional<ViewOrder> WorkbenchSession::stale_views() {
     for (const char* name : {"views", "sizes", "range", "save", "first"}) common.erase(name);
     const std::vector<std::string> lines = lines_of(text_.text());
     const std::size_t until = std::min(lines.size(), static_cast<std::size_t>(std::max(0, order.data_until)));
-    const std::string of_records =
+    const std::string of_data =
         fmt::format("{}", fmt::join(lines.begin(), lines.begin() + static_cast<long>(until), "\n"));
     under_way_.clear();
     const auto part = [](const ::nlohmann::json& from, const std::string& name) {
@@ -239,8 +239,8 @@ std::optional<ViewOrder> WorkbenchSession::stale_views() {
     };
     const auto is_stale = [&](const std::string& view) {
         std::string& key = under_way_[view];
-        key = is_one_of(view, kViewsOfRecords) ? of_records + part(settings, "raw") + part(settings, "prepared")
-                                               : text_.text() + common.dump();
+        key = is_one_of(view, kViewsOfData) ? of_data + part(settings, "raw") + part(settings, "prepared")
+                                            : text_.text() + common.dump();
         if (settings.contains("sizes")) key += part(settings["sizes"], view);
         if (view == "record") key += part(settings, "range");
         const auto seen = seen_.find(view);

@@ -16,7 +16,7 @@ struct ExportGradesArguments {
 
 int export_grades(const ExportGradesArguments& args) {
     if (args.delivered) {
-        const std::int64_t fresh = record_delivery(args.marks);
+        const std::int64_t fresh = log_delivery(args.marks);
         std::cout << message_text(
                          plural(fresh, "{} file is recorded as delivered", "{} files are recorded as delivered"))
                   << '\n';

@@ -14,8 +14,19 @@ DYNLAB_DESCRIBE(CheckDescription, id, about, hint, points, rerun, document, by_h
 DYNLAB_DESCRIBE(EvaluatedCheck, check, share, message, for_instructor, seconds)
 DYNLAB_DESCRIBE(SubmissionToGrade, work, home, specimens)
 DYNLAB_DESCRIBE(GradedSubmission, checks, reason, seconds)
-DYNLAB_DESCRIBE(CheckResults, checks, judged, rigs, records, error)
-DYNLAB_DESCRIBE(RequestedRecord, rig, specimen, seed)
-DYNLAB_DESCRIBE(ChecksJob, files, hidden_folder, time_ms, most_ms, clock_multiple, only, submissions, records)
+template <Is<CheckResults> T, class V>
+void describe(T& object, V& member) {
+    auto& [checks, judged, rigs, data_sets, error] = object;
+    member("checks", checks), member("judged", judged), member("rigs", rigs);
+    member("records", data_sets), member("error", error);
+}
+DYNLAB_DESCRIBE(RequestedDataSet, rig, specimen, seed)
+template <Is<ChecksJob> T, class V>
+void describe(T& object, V& member) {
+    auto& [files, hidden_folder, time_ms, most_ms, clock_multiple, only, submissions, data_sets] = object;
+    member("files", files), member("hidden_folder", hidden_folder), member("time_ms", time_ms);
+    member("most_ms", most_ms), member("clock_multiple", clock_multiple), member("only", only);
+    member("submissions", submissions), member("records", data_sets);
+}
 
 }  // namespace dynlab::inline course

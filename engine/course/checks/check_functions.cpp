@@ -79,7 +79,7 @@ struct Compared {
 
 /// Whether this check uses data sets that students must learn nothing about: the distance of an answer from the true
 /// value would reveal that value to a student who submits twice.
-bool on_secret_record(const Call& call) {
+bool uses_hidden_data(const Call& call) {
     const CheckSession& session = session_of(call);
     if (!session.current) return false;
     const std::string& rerun = session.current->rerun;
@@ -111,7 +111,7 @@ int near(Call& call) {
         throw InvalidArgument("a relative tolerance of 0 allows no error: give an absolute tolerance, {abs = ...}");
     if (!std::isfinite(apart))
         return give_result(call, 0, Message("The answer is not a finite number, or has the wrong size."));
-    if (on_secret_record(call))
+    if (uses_hidden_data(call))
         return give_result(call, apart <= half ? 0.5 : 0,
                            Message("On a data set that you have not seen, the error is too large."));
     return give_result(call, apart <= half ? 0.5 : 0,
@@ -124,7 +124,7 @@ int points_between(Call& call) {
     if (!(low != high)) throw InvalidArgument("'low' and 'high' must differ");
     const double share = std::isfinite(x) ? std::clamp((x - low) / (high - low), 0.0, 1.0) : 0;
     if (share == 1) return give_result(call, 1, {});
-    if (on_secret_record(call))
+    if (uses_hidden_data(call))
         return give_result(call, share,
                            Message("On a data set that you have not seen, the answer does not earn full points."));
     return give_result(call, share,
@@ -398,7 +398,7 @@ int verdict(Call& call) {
         else
             found.for_instructor = error.with_place();
     }
-    if (found.share < 1 && on_secret_record(call)) keep_secret(session, ended, found);
+    if (found.share < 1 && uses_hidden_data(call)) keep_secret(session, ended, found);
     if (found.share < 1)
         if (auto said = mistake_made(call, check, answers)) found.message = *std::move(said);
     session.verdict = std::move(found);
@@ -421,7 +421,7 @@ FunctionEntries verdict_function() {
 
 std::vector<std::string> names_of_check_functions() {
     std::vector<std::string> names;
-    for (const auto functions : {check_declarations, check_functions, check_source_functions, check_record_functions})
+    for (const auto functions : {check_declarations, check_functions, check_source_functions, check_data_functions})
         for (const FunctionEntry& entry : functions()) names.emplace_back(entry.name);
     return names;
 }

@@ -6,7 +6,7 @@
 
 namespace dynlab::inline course {
 
-/// Functions for checks.lua in addition to those of lessons and to check_record_functions. They use the CheckSession
+/// Functions for checks.lua in addition to those of lessons and to check_data_functions. They use the CheckSession
 /// with which they are added.
 FunctionEntries check_declarations();      ///< check, change_check, drop_check, declare_rig
 FunctionEntries check_functions();         ///< near, points_between, all_of, any_of, differs, has_figure, ...

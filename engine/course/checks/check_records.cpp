@@ -29,13 +29,13 @@ void call_of_plant(const Call& call, int function, std::uint32_t specimen, std::
 }
 
 /// _record(name, variant, seed): stores a table of vectors in the session.
-int record(Call& call) {
+int simulated_data(Call& call) {
     CheckSession& session = call.owner<CheckSession>();
     const std::string name = call.text(1, "name");
     const auto whole = [&](int index) { return static_cast<std::uint32_t>(call.whole(index, "number")); };
-    session.record.clear();
+    session.simulated_data.clear();
     lua_State* L = call.state();
-    call_of_plant(call, session.rigs.at(name).record, whole(2), whole(3));
+    call_of_plant(call, session.rigs.at(name).simulated_data, whole(2), whole(3));
     const int table = lua_gettop(L);
     if (lua_type(L, table) != LUA_TTABLE)
         throw InvalidArgument("the data set of the simulated plant \"{}\" must be a table of vectors", name);
@@ -44,9 +44,10 @@ int record(Call& call) {
             throw InvalidArgument("the signals of the simulated plant \"{}\" need names", name);
         const Call values(L);
         const VectorMap signal = values.vector(table + 2, lua_tostring(L, table + 1));
-        session.record[lua_tostring(L, table + 1)] = {signal.begin(), signal.end()};
+        session.simulated_data[lua_tostring(L, table + 1)] = {signal.begin(), signal.end()};
     }
-    if (session.record.empty()) throw InvalidArgument("the data set of the simulated plant \"{}\" is empty", name);
+    if (session.simulated_data.empty())
+        throw InvalidArgument("the data set of the simulated plant \"{}\" is empty", name);
     return 0;
 }
 
@@ -90,7 +91,7 @@ std::pair<std::string, std::uint32_t> specimen_meant(const Call& call, CheckSess
         call.at_most(1);
         note_hidden(session);
         const std::string name = call.text(1, "name");
-        const PlantVariants& hidden = session.specimens[kHiddenRecords];
+        const PlantVariants& hidden = session.specimens[kHiddenDataSets];
         const auto found = hidden.find(name);
         if (found == hidden.end()) throw InvalidArgument("no hidden data set with true values is named \"{}\"", name);
         return *found;
@@ -123,25 +124,25 @@ int truth(Call& call) {
     return 1;
 }
 
-constexpr std::array kRecordFunctions = {
+constexpr std::array kHiddenDataFunctions = {
     FunctionEntry{"hidden", "checks", "hidden(name) -> table", "another data set of the rerun's plant",
                   guarded<hidden>},
     FunctionEntry{"truth", "checks", "truth(name) | truth(answers, name) -> table", "the true values of that data set",
                   guarded<truth>},
 };
 
-constexpr std::array kRecordOfRig = {
-    FunctionEntry{"_record", "checks", "", "", guarded<record>},
+constexpr std::array kDataOfPlant = {
+    FunctionEntry{"_record", "checks", "", "", guarded<simulated_data>},
 };
 
 }  // namespace
 
-FunctionEntries record_function() {
-    return kRecordOfRig;
+FunctionEntries data_function() {
+    return kDataOfPlant;
 }
 
-FunctionEntries check_record_functions() {
-    return kRecordFunctions;
+FunctionEntries check_data_functions() {
+    return kHiddenDataFunctions;
 }
 
 }  // namespace dynlab::inline course

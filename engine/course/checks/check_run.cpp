@@ -54,7 +54,7 @@ CheckResults try_checks(const ChecksJob& job) {
     if (job.submissions.empty()) {
         confine_process({});
         ReadChecks checks(job, nullptr);
-        if (!checks.error()) return checks.listed(job.records);
+        if (!checks.error()) return checks.listed(job.data_sets);
         results.error = checks.error();
         return results;
     }

@@ -57,12 +57,12 @@ struct CheckResults {
     std::vector<EvaluatedCheck> checks;    ///< as they are declared
     std::vector<GradedSubmission> judged;  ///< one entry per submission of ChecksJob::submissions, in order
     std::vector<std::string> rigs;         ///< data sets of the simulated plants that the files declare
-    std::vector<std::map<std::string, std::vector<double>>> records;  ///< one entry per request of the job, in order
+    std::vector<std::map<std::string, std::vector<double>>> data_sets;  ///< one entry per request of the job, in order
     std::optional<Message> error;  ///< a sentence, when a file cannot be read; then there is nothing else
 };
 
 /// A request for a data set of a simulated plant that the files declare.
-struct RequestedRecord {
+struct RequestedDataSet {
     std::string rig;
     std::uint32_t specimen = 0, seed = 1;
 };
@@ -79,7 +79,7 @@ struct ChecksJob {
     int clock_multiple = 0;                      ///< the clock's limits, see TimeLimits
     std::optional<std::size_t> only;             ///< the number of the one that is wanted; nothing for all
     std::vector<SubmissionToGrade> submissions;  ///< none to list the checks only
-    std::vector<RequestedRecord> records;
+    std::vector<RequestedDataSet> data_sets;
 };
 
 /// Reads the check files and runs the checks in this process, which must be in a sandbox. Each submission is checked in

@@ -40,7 +40,7 @@ struct CheckOutcome {
 /// A simulated plant that a check file declares; its functions take {specimen =, seed =} and are indices in Lua's
 /// registry.
 struct DeclaredPlant {
-    int record = 0, truth = 0;  ///< truth: 0 if the file declares none
+    int simulated_data = 0, truth = 0;  ///< truth: 0 if the file declares none
 };
 
 inline constexpr char kMainRun[] = "main";       ///< the submitted run
@@ -48,8 +48,8 @@ inline constexpr char kOtherSeedRun[] = "seed";  ///< the rerun with other rando
 
 /// Specimens of the apparatus by data set.
 using PlantVariants = std::map<std::string, std::uint32_t>;
-inline constexpr char kHiddenRecords[] = "hidden";  ///< used as a run's name where plant variants are listed
-inline constexpr char kRunOfAnswers[] = "run";      ///< field of a metatable: from which run the answers came
+inline constexpr char kHiddenDataSets[] = "hidden";  ///< used as a run's name where plant variants are listed
+inline constexpr char kRunOfAnswers[] = "run";       ///< field of a metatable: from which run the answers came
 
 /// What the functions of checks.lua share while a submission is checked.
 struct CheckSession {
@@ -68,8 +68,8 @@ struct CheckSession {
     Message answer_error;                 ///< why an answer that the current check requested is missing; quotes no data
     std::map<std::string, Message> said;  ///< message of each check result by its English text, which Lua holds
     std::optional<CheckOutcome> verdict;
-    std::optional<std::pair<std::string, double>> change;  ///< an answer that is seen multiplied
-    std::map<std::string, std::vector<double>> record;     ///< what `_record` made last
+    std::optional<std::pair<std::string, double>> change;       ///< an answer that is seen multiplied
+    std::map<std::string, std::vector<double>> simulated_data;  ///< what `_record` made last
 };
 
 }  // namespace dynlab::inline course

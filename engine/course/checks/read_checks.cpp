@@ -62,8 +62,8 @@ ReadChecks::ReadChecks(const ChecksJob& job, const SubmissionToGrade* submission
     : runtime_(options_of_checks(job), renderer_) {
     session_.hidden_folder = job.hidden_folder;
     if (submission != nullptr) hand_over(*submission);
-    for (const auto functions : {check_declarations, check_functions, check_source_functions, check_record_functions,
-                                 verdict_function, record_function})
+    for (const auto functions : {check_declarations, check_functions, check_source_functions, check_data_functions,
+                                 verdict_function, data_function})
         runtime_.add_functions(functions(), session_);
     for (const CheckFile& file : job.files) {
         session_.visible_file = file.visible;
@@ -78,17 +78,17 @@ std::vector<EvaluatedCheck> ReadChecks::evaluated(std::optional<std::size_t> onl
     return verdicts(runtime_, session_, only);
 }
 
-CheckResults ReadChecks::listed(const std::vector<RequestedRecord>& records) {
+CheckResults ReadChecks::listed(const std::vector<RequestedDataSet>& data_sets) {
     CheckResults results;
     for (const auto& [name, rig] : session_.rigs) results.rigs.push_back(name);
-    for (const RequestedRecord& requested : records) {
+    for (const RequestedDataSet& requested : data_sets) {
         const RunRecord record = runtime_.run_code(
             fmt::format("_record(\"{}\", {}, {})", requested.rig, requested.specimen, requested.seed), requested.rig);
         if (record.error) {
             results.error = with_place(*record.error);
             return results;
         }
-        results.records.push_back(std::move(session_.record));
+        results.data_sets.push_back(std::move(session_.simulated_data));
     }
     for (const DeclaredCheck& check : session_.checks) results.checks.push_back({check, {}, {}, {}});
     return results;
@@ -108,7 +108,7 @@ std::uint32_t drawn_number(const std::string& secret, const std::string& lesson,
 }
 
 std::string noise_of(const std::string& data_set, const std::string& run) {
-    return (run == kHiddenRecords ? "noise:" : "noise:rerun:") + data_set;
+    return (run == kHiddenDataSets ? "noise:" : "noise:rerun:") + data_set;
 }
 
 }  // namespace dynlab::inline course

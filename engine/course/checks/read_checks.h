@@ -23,7 +23,7 @@ class ReadChecks {
     std::vector<EvaluatedCheck> evaluated(std::optional<std::size_t> only = {});
 
     /// Lists the declared checks and simulated plants, and creates the requested data sets of these plants.
-    CheckResults listed(const std::vector<RequestedRecord>& records);
+    CheckResults listed(const std::vector<RequestedDataSet>& data_sets);
 
   private:
     void hand_over(const SubmissionToGrade& submission);

@@ -98,8 +98,8 @@ std::vector<std::int64_t> ids_of(const std::vector<Found>& all) {
 
 }  // namespace
 
-void record_arrival(Course& course, const Assignment& a, std::int64_t version, Instant received,
-                    const std::string& reason, Instant now) {
+void log_arrival(Course& course, const Assignment& a, std::int64_t version, Instant received, const std::string& reason,
+                 Instant now) {
     Receipt receipt = receipt_of(course, version);
     const Instant due = due_for(course, a, group_of_version(course, version), receipt.stage);
     ++receipt.correction;
@@ -114,7 +114,7 @@ void record_arrival(Course& course, const Assignment& a, std::int64_t version, I
 void confirm_arrivals(Course& course, const Assignment& a, const std::vector<std::int64_t>& versions, Instant now) {
     Transaction transaction(course.database());
     for (const std::int64_t version : versions)
-        record_arrival(course, a, version, receipt_of(course, version).received, "confirmed", now);
+        log_arrival(course, a, version, receipt_of(course, version).received, "confirmed", now);
     course.note(fmt::format("{}: {} times of receipt confirmed", a.name, versions.size()), now);
     transaction.commit();
 }
@@ -133,7 +133,7 @@ std::vector<std::int64_t> correct_arrival(Course& course, const Assignment& a, c
         return newest.next() && newest.integer(0) != 0;
     };
     if (std::ranges::all_of(all, is_recorded)) return ids_of(all);  // the command is repeated
-    for (const Found& one : all) record_arrival(course, a, one.id, received, reason, now);
+    for (const Found& one : all) log_arrival(course, a, one.id, received, reason, now);
     course.note(fmt::format("{}: {} (v{}) was received at {}; reason: {}", a.name, files.what(), all.front().number,
                             course.clock().show_exactly(received), reason),
                 now);

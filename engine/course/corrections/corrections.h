@@ -26,8 +26,8 @@ std::vector<std::int64_t> correct_arrival(Course& course, const Assignment& assi
                                           const std::string& reason, Instant now);
 
 /// Within a transaction, and without a line in the journal: the same of one version.
-void record_arrival(Course& course, const Assignment& assignment, std::int64_t version, Instant received,
-                    const std::string& reason, Instant now);
+void log_arrival(Course& course, const Assignment& assignment, std::int64_t version, Instant received,
+                 const std::string& reason, Instant now);
 /// The times of receipt are right, however late they are: penalties that wait for it are applied.
 void confirm_arrivals(Course& course, const Assignment& assignment, const std::vector<std::int64_t>& versions,
                       Instant now);

@@ -370,12 +370,12 @@ GradeExport write_grade_export(const GradeExportRequest& request) {
     return Outbox(request).fill();
 }
 
-std::int64_t record_delivery(const fs::path& marks) {
-    const fs::path file = marks / "handed_back/mail.csv", record = marks / "handed_back" / kDelivered;
+std::int64_t log_delivery(const fs::path& marks) {
+    const fs::path file = marks / "handed_back/mail.csv", delivered_file = marks / "handed_back" / kDelivered;
     if (!fs::exists(file))
         throw EnvironmentError("{} does not exist yet; run dynlab export-grades without --delivered first",
                                file.string());
-    Delivered delivered = read_deliveries(record);
+    Delivered delivered = read_deliveries(delivered_file);
     std::int64_t fresh = 0;
     for (const auto& [key, hash] : read_deliveries(file))
         if (std::string& before = delivered[key]; before != hash) before = hash, ++fresh;
@@ -385,7 +385,7 @@ std::int64_t record_delivery(const fs::path& marks) {
         const std::size_t end = key.find('\n');
         table.rows.push_back({key.substr(0, end), key.substr(end + 1), hash});
     }
-    write_file_atomically(record, csv_text(table));
+    write_file_atomically(delivered_file, csv_text(table));
     return fresh;
 }
 

@@ -47,6 +47,6 @@ GradeExport write_grade_export(const GradeExportRequest& request);
 
 /// Marks the feedback listed in `marks`/handed_back/mail.csv as delivered, so that it is no longer new. Returns the
 /// number of files that were new. Throws EnvironmentError if no export exists yet.
-std::int64_t record_delivery(const std::filesystem::path& marks);
+std::int64_t log_delivery(const std::filesystem::path& marks);
 
 }  // namespace dynlab::inline course

@@ -22,39 +22,40 @@ std::uint32_t GradingRules::drawn(const std::string& what) const {
 
 /// Creates a hidden data set of every simulated plant. Only a running check shows which ones it needs, and all together
 /// take a tenth of a second.
-void GradingRules::make_records() {
-    fs::create_directories(records_.path() / kHiddenRecords);
-    for (const Plant& rig : plant_catalog()) make_record(rig.name, kHiddenRecords, records_.path() / kHiddenRecords);
+void GradingRules::make_data_sets() {
+    fs::create_directories(data_sets_.path() / kHiddenDataSets);
+    for (const Plant& rig : plant_catalog())
+        make_data_set(rig.name, kHiddenDataSets, data_sets_.path() / kHiddenDataSets);
     for (const std::string& rerun : reruns_) {
         if (rerun == kOtherSeedRun) continue;
-        const fs::path data = records_.path() / rerun / "data";
+        const fs::path data = data_sets_.path() / rerun / "data";
         fs::create_directories(data.parent_path());
         fs::copy(official_data(), data, fs::copy_options::recursive);
         fs::create_directories(data / rerun);
         for (const auto& entry : fs::directory_iterator(data / rerun))
             if (entry.path().extension() == ".csv" || entry.path().extension() == ".mat") fs::remove(entry.path());
         if (!fs::exists(data / rerun / "SOURCE.md")) write_file_atomically(data / rerun / "SOURCE.md", "A record.\n");
-        if (const auto file = own_record("rerun", rerun)) {
+        if (const auto file = own_data_set("rerun", rerun)) {
             fs::copy_file(*file, data / rerun / file->filename());
-            own_records_ += sha256_of_file(*file);
+            own_data_sets_ += sha256_of_file(*file);
         } else if (find_plant(rerun)) {
-            make_record(rerun, rerun, data / rerun);
+            make_data_set(rerun, rerun, data / rerun);
         }
     }
-    if (setup_.more_checks && fs::is_directory(*setup_.more_checks / kHiddenRecords))
-        for (const auto& entry : fs::directory_iterator(*setup_.more_checks / kHiddenRecords)) {
+    if (setup_.more_checks && fs::is_directory(*setup_.more_checks / kHiddenDataSets))
+        for (const auto& entry : fs::directory_iterator(*setup_.more_checks / kHiddenDataSets)) {
             const std::string name = entry.path().stem().string();
-            if (!own_record(kHiddenRecords, name)) continue;
-            fs::remove(records_.path() / kHiddenRecords / (name + ".mat"));
-            fs::copy_file(entry.path(), records_.path() / kHiddenRecords / entry.path().filename());
-            variants_[kHiddenRecords].erase(name);  // the instructor's file replaces the simulated one
-            own_records_ += sha256_of_file(entry.path());
+            if (!own_data_set(kHiddenDataSets, name)) continue;
+            fs::remove(data_sets_.path() / kHiddenDataSets / (name + ".mat"));
+            fs::copy_file(entry.path(), data_sets_.path() / kHiddenDataSets / entry.path().filename());
+            variants_[kHiddenDataSets].erase(name);  // the instructor's file replaces the simulated one
+            own_data_sets_ += sha256_of_file(entry.path());
         }
     make_data_of_declared_plants();
 }
 
 /// A data set from the instructor's folder of checks.
-std::optional<fs::path> GradingRules::own_record(const std::string& folder, const std::string& data_set) const {
+std::optional<fs::path> GradingRules::own_data_set(const std::string& folder, const std::string& data_set) const {
     if (!setup_.more_checks) return {};
     for (const char* ending : {".csv", ".mat"}) {
         const fs::path file = *setup_.more_checks / folder / (data_set + ending);
@@ -66,15 +67,15 @@ std::optional<fs::path> GradingRules::own_record(const std::string& folder, cons
 /// Hidden data sets, and those of reruns, of all simulated plants that the files declare.
 void GradingRules::make_data_of_declared_plants() {
     if (declared_plants_.empty()) return;
-    std::vector<RequestedRecord> requested;
+    std::vector<RequestedDataSet> requested;
     std::vector<fs::path> files;
     for (const std::string& rig : declared_plants_)
-        for (const std::string& run : {std::string(kHiddenRecords), rig}) {
-            const bool hidden = run == kHiddenRecords;
+        for (const std::string& run : {std::string(kHiddenDataSets), rig}) {
+            const bool hidden = run == kHiddenDataSets;
             if (!hidden && !reruns_.contains(rig)) continue;
             const std::uint32_t specimen = drawn(rig);
             requested.push_back({rig, specimen, drawn(noise_of(rig, run))});
-            files.push_back((hidden ? records_.path() / kHiddenRecords : records_.path() / rig / "data" / rig) /
+            files.push_back((hidden ? data_sets_.path() / kHiddenDataSets : data_sets_.path() / rig / "data" / rig) /
                             (rig + ".mat"));
             variants_[run][rig] = specimen;
         }
@@ -84,13 +85,13 @@ void GradingRules::make_data_of_declared_plants() {
     if (made.output->error) throw EnvironmentError(*made.output->error);
     for (std::size_t k = 0; k < files.size(); ++k) {
         VariableTable variables;
-        for (const auto& [name, values] : made.output->records.at(k))
+        for (const auto& [name, values] : made.output->data_sets.at(k))
             variables[name] = {Vector(Eigen::Map<const Vector>(values.data(), static_cast<Index>(values.size())))};
         write_mat_file(files[k], variables);
     }
 }
 
-void GradingRules::make_record(const std::string& data_set, const std::string& run, const fs::path& folder) {
+void GradingRules::make_data_set(const std::string& data_set, const std::string& run, const fs::path& folder) {
     // The draw of the variant ignores `run`: hidden data sets are further experiments with the plant of the rerun.
     const PlantChoice choice{.specimen = drawn(data_set), .seed = drawn(noise_of(data_set, run))};
     variants_[run][data_set] = choice.specimen;
@@ -99,17 +100,17 @@ void GradingRules::make_record(const std::string& data_set, const std::string& r
 
 void GradingRules::bring_lesson_data() {
     if (has_own_data(setup_.lesson)) {
-        const fs::path data = records_.path() / "official" / "data";
+        const fs::path data = data_sets_.path() / "official" / "data";
         fs::create_directories(data.parent_path());
         fs::copy(shared_folder() / "data", data, fs::copy_options::recursive);
         copy_own_data(setup_.lesson, data);
     }
-    own_records_ += digest_of_folder(official_data()).hex();
+    own_data_sets_ += digest_of_folder(official_data()).hex();
 }
 
 /// The installed data sets, and those that the lesson brings along.
 fs::path GradingRules::official_data() const {
-    const fs::path data = records_.path() / "official" / "data";
+    const fs::path data = data_sets_.path() / "official" / "data";
     return fs::exists(data) ? data : shared_folder() / "data";
 }
 
@@ -123,7 +124,7 @@ std::vector<std::string> GradingRules::simulated() const {
 fs::path GradingRules::data_of(const GroupSeed& group_seed) const {
     if (!group_seed) return official_data();
     const std::lock_guard lock(*making_);
-    const fs::path data = records_.path() / fmt::format("group-{}", *group_seed) / "data";
+    const fs::path data = data_sets_.path() / fmt::format("group-{}", *group_seed) / "data";
     if (fs::exists(data)) return data;
     const fs::path growing = data.parent_path() / "growing";
     fs::create_directories(growing.parent_path());

@@ -79,7 +79,7 @@ GradingRules::GradingRules(GradingSetup setup)
     answers_ = lesson.header.answers;
     bring_lesson_data();
     read_checks();
-    make_records();
+    make_data_sets();
 }
 
 void GradingRules::read_checks() {
@@ -113,7 +113,7 @@ void GradingRules::read_checks() {
                 check.id, setup_.lesson.slug);
         if (rerun.empty()) continue;
         const bool declared = std::ranges::find(declared_plants_, rerun) != declared_plants_.end();
-        if (rerun != kOtherSeedRun && !find_plant(rerun) && !declared && !own_record("rerun", rerun))
+        if (rerun != kOtherSeedRun && !find_plant(rerun) && !declared && !own_data_set("rerun", rerun))
             refuse_rerun(check.id, rerun);
         reruns_.insert(rerun);
     }
@@ -121,7 +121,7 @@ void GradingRules::read_checks() {
 
 fs::path GradingRules::add_home(Sandbox& sandbox, const std::string& run, const GroupSeed& group_seed) const {
     const bool own = run != kMainRun && run != kOtherSeedRun;
-    const fs::path data = own ? records_.path() / run / "data" : data_of(group_seed);
+    const fs::path data = own ? data_sets_.path() / run / "data" : data_of(group_seed);
     return sandbox.add(data, "/box/home/data").parent_path();
 }
 
@@ -198,7 +198,7 @@ Issues GradingRules::findings(const fs::path& folder, const GroupSeed& group_see
     }
 }
 
-SandboxResult<CheckResults> GradingRules::listed(std::vector<RequestedRecord> records) const {
+SandboxResult<CheckResults> GradingRules::listed(std::vector<RequestedDataSet> data_sets) const {
     const TakenCore core(*free_cores_);
     Sandbox sandbox(setup_.isolation);
     sandbox.set_environment("DYNLAB_HOME", add_home(sandbox, kMainRun, {}).string());
@@ -206,7 +206,7 @@ SandboxResult<CheckResults> GradingRules::listed(std::vector<RequestedRecord> re
     job.files = files_;
     job.time_ms = kCheckTime.count();
     job.clock_multiple = setup_.time.clock_multiple;
-    job.records = std::move(records);
+    job.data_sets = std::move(data_sets);
     return run_in_sandbox(sandbox, setup_.program, job, {kSingleTime, setup_.time.clock_multiple});
 }
 
@@ -217,7 +217,7 @@ SandboxResult<CheckResults> GradingRules::checked(const std::vector<Work>& works
     Sandbox sandbox(setup_.isolation);
     ChecksJob job;
     job.files = files_;
-    job.hidden_folder = sandbox.add(records_.path() / kHiddenRecords, "/box/hidden");
+    job.hidden_folder = sandbox.add(data_sets_.path() / kHiddenDataSets, "/box/hidden");
     job.time_ms = kCheckTime.count();
     job.most_ms = most.count();
     job.clock_multiple = setup_.time.clock_multiple;
@@ -384,7 +384,7 @@ std::string GradingRules::run_fingerprint(const std::string& content_hash, const
     return hash_of_parts({content_hash, program_identity(), setup_.lesson.slug, sha256_of_file(setup_.lesson.script()),
                           setup_.secret, std::to_string(setup_.time.processor.count()),
                           isolation_name(setup_.isolation), fmt::format("{}", fmt::join(reruns_, " ")),
-                          document_ ? standard_ : "", own_records_,
+                          document_ ? standard_ : "", own_data_sets_,
                           declared_plants_.empty() ? "" : json_of(files_),  // which create data sets
                           group_seed ? std::to_string(*group_seed) : ""});
 }

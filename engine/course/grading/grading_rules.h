@@ -91,10 +91,10 @@ class GradingRules {
 
   private:
     void read_checks();
-    void make_records();
-    void make_record(const std::string& data_set, const std::string& run, const std::filesystem::path& folder);
+    void make_data_sets();
+    void make_data_set(const std::string& data_set, const std::string& run, const std::filesystem::path& folder);
     void make_data_of_declared_plants();
-    std::optional<std::filesystem::path> own_record(const std::string& folder, const std::string& data_set) const;
+    std::optional<std::filesystem::path> own_data_set(const std::string& folder, const std::string& data_set) const;
     void bring_lesson_data();
     std::filesystem::path official_data() const;
     GradedRun run(const std::string& name, const std::filesystem::path& folder, const GroupSeed& group_seed,
@@ -103,7 +103,7 @@ class GradingRules {
                                           std::string& log) const;
     Issues findings(const std::filesystem::path& folder, const GroupSeed& group_seed) const;
     /// The declared checks, and the requested data sets.
-    SandboxResult<CheckResults> listed(std::vector<RequestedRecord> records = {}) const;
+    SandboxResult<CheckResults> listed(std::vector<RequestedDataSet> data_sets = {}) const;
     SandboxResult<CheckResults> checked(const std::vector<Work>& works, std::chrono::milliseconds most,
                                         std::optional<std::size_t> only = {}) const;
     /// `result` is empty if a check has no result; the reason is given instead.
@@ -133,10 +133,10 @@ class GradingRules {
     std::set<std::string> reruns_, broken_;
     std::map<std::string, double> solution_seconds_;
     std::vector<std::string> declared_plants_;
-    std::string own_records_;  ///< hashes of all data sets that scripts find, and of the instructor's data sets
+    std::string own_data_sets_;  ///< hashes of all data sets that scripts find, and of the instructor's data sets
     bool document_ = false;
     std::unique_ptr<std::counting_semaphore<>> free_cores_;  ///< for runs in sandboxes
-    TemporaryFolder records_;
+    TemporaryFolder data_sets_;
     std::unique_ptr<std::mutex> making_ = std::make_unique<std::mutex>();  ///< guards groups' data sets and simulated_
 };
 

@@ -159,7 +159,7 @@ void join_marks(Course& course, const Assignment& assignment, const CourseWork& 
     join_rows(course, assignment, work, most, options.out, file_alone);
 }
 
-void record_results(Course& course, const Assignment& assignment, const CourseWork& work, const fs::path& out) {
+void save_results(Course& course, const Assignment& assignment, const CourseWork& work, const fs::path& out) {
     Transaction transaction(course.database());
     int fresh = 0;
     for (const WorkItem& item : work.work().items) {
@@ -168,7 +168,7 @@ void record_results(Course& course, const Assignment& assignment, const CourseWo
         VersionResult result{item.version, {}, grade->fingerprint};
         for (const CheckGrade& check : grade->checks)
             result.checks.push_back({check.id, check.points, check.earned, check.graded});
-        if (record_result(course, result, CourseClock::now())) ++fresh;
+        if (save_result(course, result, CourseClock::now())) ++fresh;
     }
     if (fresh > 0) course.note(fmt::format("{}: {} graded", assignment.name, fresh));
     transaction.commit();
@@ -185,7 +185,7 @@ GradingOutcome grade_assignment(Course& course, const Assignment& assignment, co
     const EvaluatedRules evaluated(options);
     join_marks(course, assignment, work, evaluated, options, false);
     GradingOutcome outcome = grade_class(work.work(), evaluated, options);
-    record_results(course, assignment, work, options.out);
+    save_results(course, assignment, work, options.out);
     return outcome;
 }
 

@@ -33,7 +33,7 @@ GradingOptions grading_options(const Assignment& assignment, const CourseGrading
 void join_marks(Course& course, const Assignment& assignment, const CourseWork& work, const EvaluatedRules& evaluated,
                 const GradingOptions& options, bool file_alone);
 /// Enters what the checks gave.
-void record_results(Course& course, const Assignment& assignment, const CourseWork& work,
-                    const std::filesystem::path& out);
+void save_results(Course& course, const Assignment& assignment, const CourseWork& work,
+                  const std::filesystem::path& out);
 
 }  // namespace dynlab::inline course

@@ -97,7 +97,7 @@ void note_export(Course& course, const std::string& assignment, const std::strin
     if (!hash.empty()) course.settle({hash});
     Transaction transaction(course.database());
     if (!hash.empty()) {
-        course.record_file(hash, std::ssize(totals), now);
+        course.register_file(hash, std::ssize(totals), now);
         course.save_entry(kExported, fmt::format("{} {}", hash, now));
     }
     course.note(assignment.empty() ? fmt::format("marks of the course written into {}", file)

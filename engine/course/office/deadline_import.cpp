@@ -103,7 +103,7 @@ class RowsOfGroups {
         if (requested.empty()) return 0;
         Transaction transaction(course_.database());
         for (const auto& [version, received] : requested)
-            record_arrival(course_, assignment_, version, received, reason_, now_);
+            log_arrival(course_, assignment_, version, received, reason_, now_);
         course_.note(fmt::format("{}: {} times of receipt {}", assignment_.name, requested.size(), reason_), now_);
         transaction.commit();
         return static_cast<int>(requested.size());

@@ -219,7 +219,7 @@ bool FolderGrading::confirm_late(Course& course) {
     if (waiting.empty()) return false;
     Transaction transaction(course.database());
     for (const WorkItem* item : waiting)
-        record_arrival(course, assignment_, item->version, item->received, "--accept-late", CourseClock::now());
+        log_arrival(course, assignment_, item->version, item->received, "--accept-late", CourseClock::now());
     course.note(fmt::format("{}: {} times of receipt confirmed", assignment_.name, waiting.size()));
     transaction.commit();
     return true;
@@ -227,7 +227,7 @@ bool FolderGrading::confirm_late(Course& course) {
 
 GradingOutcome FolderGrading::grade() {
     GradingOutcome outcome = grade_class(work_->work(), *tried_, options_);
-    with_course(request_, [this](Course& course) { record_results(course, assignment_, *work_, request_.out); });
+    with_course(request_, [this](Course& course) { save_results(course, assignment_, *work_, request_.out); });
     return outcome;
 }
 

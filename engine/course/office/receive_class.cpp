@@ -154,8 +154,8 @@ class ClassReceiver {
         Transaction transaction(course_.database());
         for (const std::size_t i : fresh) add(received_.items[i], files_[i]);
         for (const std::size_t i : corrected)
-            record_arrival(course_, assignment_, received_.items[i].version, files_[i].at,
-                           "according to the platform's table of times", now_);
+            log_arrival(course_, assignment_, received_.items[i].version, files_[i].at,
+                        "according to the platform's table of times", now_);
         for (const std::size_t i : moved) take_from_others(received_.items[i]);
         for (std::size_t i = 0; i < files_.size(); ++i)
             if (!files_[i].error_reason.empty())
@@ -289,7 +289,7 @@ void set_owners(Course& course, const Assignment& assignment, const fs::path& li
     course.settle({hash});
     if (course.saved_entry(owners_setting(assignment)) == hash) return;
     Transaction transaction(course.database());
-    course.record_file(hash, static_cast<std::int64_t>(fs::file_size(list)), CourseClock::now());
+    course.register_file(hash, static_cast<std::int64_t>(fs::file_size(list)), CourseClock::now());
     course.save_entry(owners_setting(assignment), hash);
     course.note(fmt::format("{}: owners of submissions imported", assignment.name));
     transaction.commit();

@@ -148,7 +148,7 @@ class CopySender {
         }
         if (stopped_.contains(version->id)) {  // for another reviewer
             ++outcome_.stopped;
-            record_stop(pair, version->id);
+            save_stop(pair, version->id);
             return;
         }
         const std::string& author = to_reviewers() ? pair.author_name : pair.reviewer_name;
@@ -167,7 +167,7 @@ class CopySender {
         if (!copy.made) {
             stopped_.insert(version->id);
             ++outcome_.stopped;
-            record_stop(pair, version->id);
+            save_stop(pair, version->id);
             outcome_.hits.push_back(Message("the {} of {} was not sent: {}", document, author, sentences(copy.hits)));
             return;
         }
@@ -178,11 +178,11 @@ class CopySender {
         if (!copy.hits.empty() && doubted_.insert(version->id).second)
             outcome_.hints.push_back(Message("the {} of {} was sent, although it contains names: {}", document, author,
                                              sentences(copy.hits)));
-        record(pair, *version, read_file(request.copy), copy.hits.empty() ? "" : author);
+        save_sending(pair, *version, read_file(request.copy), copy.hits.empty() ? "" : author);
     }
 
     /// So that the status stops asking for what cannot be sent.
-    void record_stop(const ReviewPair& pair, std::int64_t version) {
+    void save_stop(const ReviewPair& pair, std::int64_t version) {
         if (to_reviewers() ? pair.stopped_report : pair.stopped_review) return;
         Transaction transaction(course_.database());
         course_.database().run("INSERT INTO stops VALUES (?, ?, ?, ?) ON CONFLICT DO NOTHING", pair.id, way_name(),
@@ -191,14 +191,14 @@ class CopySender {
     }
 
     /// `accepted`: the group whose hits were accepted; else empty.
-    void record(const ReviewPair& pair, const ValidFile& version, const std::string& content,
-                const std::string& accepted) {
+    void save_sending(const ReviewPair& pair, const ValidFile& version, const std::string& content,
+                      const std::string& accepted) {
         if (has_ended(pair)) return;  // while the copy was made
         const std::string hash = course_.keep(content);
         course_.settle({hash});
         Transaction transaction(course_.database());
         if (has_ended(pair)) return;
-        course_.record_file(hash, static_cast<std::int64_t>(content.size()), now_);
+        course_.register_file(hash, static_cast<std::int64_t>(content.size()), now_);
         course_.database().run("INSERT INTO sendings (pair, way, version, hash, made_at) VALUES (?, ?, ?, ?, ?)",
                                pair.id, way_name(), version.id, hash, now_);
         if (!accepted.empty() && noted_.insert(version.id).second)

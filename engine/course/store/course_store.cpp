@@ -245,7 +245,7 @@ void Course::keep_in_batches(const std::vector<fs::path>& files, std::vector<Sto
     }
 }
 
-void Course::record_file(const std::string& hash, std::int64_t bytes, Instant at) {
+void Course::register_file(const std::string& hash, std::int64_t bytes, Instant at) {
     database_.run("INSERT OR IGNORE INTO files VALUES (?, ?, ?)", hash, bytes, at);
 }
 

@@ -59,7 +59,7 @@ class Course {
     /// files/, so that opening the course finds leftovers without searching all folders.
     void write(const std::vector<NewFile>& files) const;
     /// Within a transaction: the store speaks of this content from now on.
-    void record_file(const std::string& hash, std::int64_t bytes, Instant at);
+    void register_file(const std::string& hash, std::int64_t bytes, Instant at);
     std::filesystem::path file(const std::string& hash) const;
     /// A named setting of a command; empty if it was never set. Setting it requires a transaction.
     std::string saved_entry(const std::string& key);

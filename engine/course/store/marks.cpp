@@ -213,7 +213,7 @@ std::vector<CheckPoints> newest_checks(Course& course, const Assignment& assignm
     return rows.next() ? checks_in(rows.text(0)) : std::vector<CheckPoints>();
 }
 
-bool record_result(Course& course, const VersionResult& result, Instant now) {
+bool save_result(Course& course, const VersionResult& result, Instant now) {
     const std::string checks = json_of(result.checks);
     Rows newest = course.database().query(
         "SELECT checks, fingerprint FROM results WHERE version = ? ORDER BY id DESC LIMIT 1", result.version);

@@ -82,7 +82,7 @@ std::vector<CheckPoints> newest_checks(Course& course, const Assignment& assignm
 
 /// Within a transaction: the newest result of a version counts; the same one again is not entered. Returns whether it
 /// is new.
-bool record_result(Course& course, const VersionResult& result, Instant now);
+bool save_result(Course& course, const VersionResult& result, Instant now);
 
 /// What a group has for a lab: the version that counts, the best or the newest as the assignment has it.
 struct LabMark {

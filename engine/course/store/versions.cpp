@@ -9,7 +9,7 @@ AddedVersion add_version(Course& course, const Assignment& a, const NewVersion& 
     const std::int64_t late = v.at > due + a.grace ? v.at - due : 0;
     const Receipt receipt{course.name(), a.name,   v.group_name, v.stage, v.part, v.name,
                           v.hash,        v.number, v.bytes,      late,    v.at,   due};
-    course.record_file(v.hash, v.bytes, now);
+    course.register_file(v.hash, v.bytes, now);
     course.database().run(
         "INSERT INTO versions (assignment, group_id, stage, pair, part, number, hash, name, received_at, due_at, late, "
         "findings, signature) VALUES (?, nullif(?, 0), ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",

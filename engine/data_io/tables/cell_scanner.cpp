@@ -14,20 +14,20 @@ bool is_comment(std::string_view line) {
     return word.size() < 2 || parse_number(word, number) != NumberStatus::kMissing;
 }
 
-bool CellScanner::next_record() {
-    constexpr std::string_view kMayNotBeRecord = " \t\r\n#%";
+bool CellScanner::next_row() {
+    constexpr std::string_view kMayNotBeRow = " \t\r\n#%";
     for (; !at_end(); ++line_) {
-        if (kMayNotBeRecord.find(text_[at_]) == std::string_view::npos) {
-            record_at_ = at_;
-            record_line_ = line_;
+        if (kMayNotBeRow.find(text_[at_]) == std::string_view::npos) {
+            row_at_ = at_;
+            row_line_ = line_;
             return true;
         }
         const std::size_t end = std::min(text_.find('\n', at_), text_.size());
         const std::size_t begin = text_.find_first_not_of(" \t\r", at_);
         const bool blank = begin >= end;
         if (!blank && !is_comment(text_.substr(begin, end - begin))) {
-            record_at_ = at_;
-            record_line_ = line_;
+            row_at_ = at_;
+            row_line_ = line_;
             if (separator_ == ' ') at_ = begin;
             return true;
         }
@@ -54,8 +54,7 @@ bool CellScanner::at_separator() const {
 std::string_view CellScanner::next_quoted_cell() {
     unquoted_.clear();
     for (++at_;; ++at_) {
-        if (at_end())
-            throw EnvironmentError("{}, line {}: a quotation mark is not closed", file_.string(), record_line_);
+        if (at_end()) throw EnvironmentError("{}, line {}: a quotation mark is not closed", file_.string(), row_line_);
         if (text_[at_] == '"') {
             if (at_ + 1 >= text_.size() || text_[at_ + 1] != '"') break;
             ++at_;
@@ -67,7 +66,7 @@ std::string_view CellScanner::next_quoted_cell() {
     if (separator_ != ' ')
         while (!at_end() && (is_blank(text_[at_]) || text_[at_] == '\r')) ++at_;
     if (!at_end() && !at_separator() && text_[at_] != '\n' && text_[at_] != '\r')
-        throw EnvironmentError("{}, line {}: text follows a closing quotation mark", file_.string(), record_line_);
+        throw EnvironmentError("{}, line {}: text follows a closing quotation mark", file_.string(), row_line_);
     pass_cell_end();
     return trimmed_cell(unquoted_);
 }
@@ -75,9 +74,9 @@ std::string_view CellScanner::next_quoted_cell() {
 void CellScanner::pass_cell_end() {
     if (separator_ == ' ')
         while (!at_end() && (is_blank(text_[at_]) || text_[at_] == '\r')) ++at_;
-    record_ended_ = at_end() || text_[at_] == '\n';
+    row_ended_ = at_end() || text_[at_] == '\n';
     line_ += !at_end() && text_[at_] == '\n';
-    if (!at_end() && (record_ended_ || separator_ != ' ')) ++at_;
+    if (!at_end() && (row_ended_ || separator_ != ' ')) ++at_;
 }
 
 }  // namespace dynlab::inline data_io

@@ -17,12 +17,12 @@ class CellScanner {
         : file_(file), text_(text), separator_(separator), at_(at), line_(line) {}
 
     /// Goes to the next row; false at the end of the text. Call it when the current row has ended.
-    bool next_record();
+    bool next_row();
     /// Its next cell, without blanks around it; valid until the next call. There is at least one.
     std::string_view next_cell();
-    bool record_ended() const { return record_ended_; }              ///< after its last cell
-    std::size_t line() const { return record_line_; }                ///< on which the current row begins
-    std::size_t place() const { return record_at_; }                 ///< byte at which it begins
+    bool row_ended() const { return row_ended_; }                    ///< after its last cell
+    std::size_t line() const { return row_line_; }                   ///< on which the current row begins
+    std::size_t place() const { return row_at_; }                    ///< byte at which it begins
     std::string_view last_comment() const { return last_comment_; }  ///< without its sign; empty when there was none
 
   private:
@@ -36,8 +36,8 @@ class CellScanner {
     std::string_view text_;
     char separator_;
     std::size_t at_, line_;
-    std::size_t record_at_ = 0, record_line_ = 1;
-    bool record_ended_ = false;
+    std::size_t row_at_ = 0, row_line_ = 1;
+    bool row_ended_ = false;
     std::string unquoted_;
     std::string_view last_comment_;
 };

@@ -32,7 +32,7 @@ class RowReader {
         for (std::size_t j = 0; j < columns_.size(); ++j)
             is_text(j) ? columns_[j].texts.reserve(rows) : columns_[j].numbers.resize(static_cast<Index>(rows));
         CellScanner scanner(file_, text_, layout_.separator, layout_.rows_at, layout_.rows_line);
-        while (scanner.next_record() && read_row(scanner)) ++rows_.count;
+        while (scanner.next_row() && read_row(scanner)) ++rows_.count;
         rows_.count -= empty_rows_;  // spreadsheets write rows of nothing but separators below a table
         for (std::size_t j = 0; j < columns_.size(); ++j) {
             TableColumn& column = columns_[j];
@@ -61,7 +61,7 @@ class RowReader {
             }
             empty = empty && cell.empty();
             ++cells;
-        } while (!scanner.record_ended());
+        } while (!scanner.row_ended());
         if (cells == columns_.size() || (cells > columns_.size() && rest_is_empty)) {
             empty_rows_ = empty ? empty_rows_ + 1 : 0;
             return true;
@@ -116,7 +116,7 @@ class RowReader {
         constexpr std::size_t kMaxLineCount = 200;
         CellScanner scanner(file_, text_, layout_.separator, at.place(), at.line());
         std::string first;
-        for (std::size_t lines = 0; scanner.next_record(); ++lines) {
+        for (std::size_t lines = 0; scanner.next_row(); ++lines) {
             std::size_t cells = 0, numbers = 0, others = 0;
             do {
                 const std::string_view cell = scanner.next_cell();
@@ -129,7 +129,7 @@ class RowReader {
                     others += status == NumberStatus::kNotANumber;
                 }
                 ++cells;
-            } while (!scanner.record_ended());
+            } while (!scanner.row_ended());
             double number = 0;
             if (lines == 0 && parse_number(first, number) != NumberStatus::kNotANumber) return false;
             const bool is_row = cells >= columns_.size() && numbers > 0 && others == 0;

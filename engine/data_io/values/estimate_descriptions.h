@@ -22,10 +22,15 @@ constexpr std::array<const char*, 6> names_of(StructureAdviceCode) {
 }
 
 DYNLAB_DESCRIBE(Level, value, from, to)
-DYNLAB_DESCRIBE(StepRecord, t, u, y, step_index, step_time, input_before, input_after, initial, final, noise_std,
+DYNLAB_DESCRIBE(StepData, t, u, y, step_index, step_time, input_before, input_after, initial, final, noise_std,
                 smoothed)
 DYNLAB_DESCRIBE(ReadingPoint, name, time, value)
-DYNLAB_DESCRIBE(StepTestResult, model, names, parameters, record, points, message)
+template <Is<StepTestResult> T, class V>
+void describe(T& object, V& member) {
+    auto& [model, names, parameters, step_data, points, message] = object;
+    member("model", model), member("names", names), member("parameters", parameters);
+    member("record", step_data), member("points", points), member("message", message);
+}
 DYNLAB_DESCRIBE(WhitenessTest, correlation, bound, statistic, degrees, outside, p_value, white, verdict)
 DYNLAB_DESCRIBE(Assessment, whiteness, white, covariance, std, bandwidth, verdict)
 DYNLAB_DESCRIBE(TransferChannel, denominator, zeros, delay)

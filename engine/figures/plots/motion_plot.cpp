@@ -17,17 +17,17 @@ constexpr double kFirstHeight = 0.5, kNoNumbers = 1e3;  // of the axis of y of p
 constexpr double kMeasuredLine = 1.6, kSimulatedLine = 0.8, kFixedLine = 0.4;  // points
 constexpr int kSimulatedColor = 0, kFixedColor = 2;
 
-void check_motion_record(const PlantDrawing& plant, const MotionRecord& record) {
-    const Index parts = static_cast<Index>(plant.parts.size()), count = record.t.size();
+void check_motion_data(const PlantDrawing& plant, const MotionData& motion_data) {
+    const Index parts = static_cast<Index>(plant.parts.size()), count = motion_data.t.size();
     if (count < 2) throw InvalidArgument("an animation needs at least two instants, not {}", count);
     for (Index i = 1; i < count; ++i)
-        if (!(record.t[i] > record.t[i - 1]))
+        if (!(motion_data.t[i] > motion_data.t[i - 1]))
             throw InvalidArgument("the instants must increase, but instant {} is {} s and instant {} is {} s", i,
-                                  significant(record.t[i - 1], kInstantDigits), i + 1,
-                                  significant(record.t[i], kInstantDigits));
-    if (record.measured.size() == 0 && record.simulated.size() == 0)
+                                  significant(motion_data.t[i - 1], kInstantDigits), i + 1,
+                                  significant(motion_data.t[i], kInstantDigits));
+    if (motion_data.measured.size() == 0 && motion_data.simulated.size() == 0)
         throw InvalidArgument("an animation needs measured or simulated signals");
-    for (const Matrix* signals : {&record.measured, &record.simulated})
+    for (const Matrix* signals : {&motion_data.measured, &motion_data.simulated})
         if (signals->size() > 0 && (signals->rows() != count || signals->cols() != parts))
             throw InvalidArgument("the signals of an animation must be {} x {}, but they are {} x {}", count, parts,
                                   signals->rows(), signals->cols());
@@ -79,26 +79,26 @@ struct PicturePlace {
     }
 };
 
-Panel signal_panel(const PlantPart& part, const MotionRecord& record, Index column) {
+Panel signal_panel(const PlantPart& part, const MotionData& motion_data, Index column) {
     Panel panel;
     panel.y_label = axis_label(Message::verbatim(part.signal), part.unit);
     const auto add = [&](const Matrix& signals, const Message& label, int color, double width) {
         if (signals.size() == 0) return;
         Curve curve;
-        curve.x = record.t, curve.y = signals.col(column);
+        curve.x = motion_data.t, curve.y = signals.col(column);
         curve.label = column == 0 ? label : Message();
         curve.color = color, curve.dash = 0, curve.line_width = width;
         panel.curves.push_back(std::move(curve));
     };
-    add(record.measured, Message("measured"), style::kGrayColor, kMeasuredLine);
-    add(record.simulated, Message("simulated"), kSimulatedColor, kSimulatedLine);
+    add(motion_data.measured, Message("measured"), style::kGrayColor, kMeasuredLine);
+    add(motion_data.simulated, Message("simulated"), kSimulatedColor, kSimulatedLine);
     return panel;
 }
 
 /// The panel of pictures, whose frame is `width` x `height` cm; its axis of y counts these cm.
-void draw_pictures(Panel& panel, const PlantDrawing& plant, const MotionRecord& record, const Vector& instants,
+void draw_pictures(Panel& panel, const PlantDrawing& plant, const MotionData& motion_data, const Vector& instants,
                    double width, double height) {
-    const double seconds = record.t[record.t.size() - 1] - record.t[0];
+    const double seconds = motion_data.t[motion_data.t.size() - 1] - motion_data.t[0];
     double room = width;  // between neighbors
     for (Index k = 1; k < instants.size(); ++k)
         room = std::min(room, (instants[k] - instants[k - 1]) / seconds * width);
@@ -114,9 +114,9 @@ void draw_pictures(Panel& panel, const PlantDrawing& plant, const MotionRecord& 
                 continue;
             }
             for (const auto& [signals, strokes] :
-                 {std::pair{&record.measured, &measured}, std::pair{&record.simulated, &simulated}})
+                 {std::pair{&motion_data.measured, &measured}, std::pair{&motion_data.simulated, &simulated}})
                 if (signals->size() > 0)
-                    place.add(plant.placed(piece, signals_at(record.t, *signals, instant)), *strokes);
+                    place.add(plant.placed(piece, signals_at(motion_data.t, *signals, instant)), *strokes);
         }
     }
     if (!fixed.empty()) panel.curves.push_back(fixed.curve(kFixedColor, kFixedLine));
@@ -125,28 +125,28 @@ void draw_pictures(Panel& panel, const PlantDrawing& plant, const MotionRecord& 
     panel.y_range = {kFirstHeight, kFirstHeight + height};
 }
 
-MotionRecord thinned_motion(const MotionRecord& record) {
+MotionData thinned_motion(const MotionData& motion_data) {
     std::vector<Index> kept;
-    for (Index i = 0; i < record.t.size(); ++i)
-        if (kept.empty() || i + 1 == record.t.size() ||
-            record.t[i] - record.t[kept.back()] >= (1 - 1e-6) / kMaxPictures)
+    for (Index i = 0; i < motion_data.t.size(); ++i)
+        if (kept.empty() || i + 1 == motion_data.t.size() ||
+            motion_data.t[i] - motion_data.t[kept.back()] >= (1 - 1e-6) / kMaxPictures)
             kept.push_back(i);
-    MotionRecord result;
-    result.t = record.t(kept);
-    if (record.measured.size() > 0) result.measured = record.measured(kept, Eigen::all);
-    if (record.simulated.size() > 0) result.simulated = record.simulated(kept, Eigen::all);
+    MotionData result;
+    result.t = motion_data.t(kept);
+    if (motion_data.measured.size() > 0) result.measured = motion_data.measured(kept, Eigen::all);
+    if (motion_data.simulated.size() > 0) result.simulated = motion_data.simulated(kept, Eigen::all);
     return result;
 }
 
 }  // namespace
 
-Figure motion_plot(const PlantDrawing& plant, const MotionRecord& whole, const MotionAppearance& look) {
+Figure motion_plot(const PlantDrawing& plant, const MotionData& whole, const MotionAppearance& look) {
     plant.validate();
-    check_motion_record(plant, whole);
-    const MotionRecord record = thinned_motion(whole);
-    Vector instants = look.instants.size() > 0 ? look.instants : spread_instants(record.t);
+    check_motion_data(plant, whole);
+    const MotionData motion_data = thinned_motion(whole);
+    Vector instants = look.instants.size() > 0 ? look.instants : spread_instants(motion_data.t);
     std::sort(instants.begin(), instants.end());
-    const double first = record.t[0], last = record.t[record.t.size() - 1];
+    const double first = motion_data.t[0], last = motion_data.t[motion_data.t.size() - 1];
     for (const double instant : instants)
         if (!(instant >= first && instant <= last))
             throw InvalidArgument("the instant {} s is outside the data, which range from {} s to {} s",
@@ -163,14 +163,14 @@ Figure motion_plot(const PlantDrawing& plant, const MotionRecord& whole, const M
     pictures.y_tick_step = kNoNumbers;
     figure.panels.push_back(pictures);
     for (std::size_t k = 0; k < plant.parts.size(); ++k) {
-        Panel& panel = figure.panels.emplace_back(signal_panel(plant.parts[k], record, static_cast<Index>(k)));
+        Panel& panel = figure.panels.emplace_back(signal_panel(plant.parts[k], motion_data, static_cast<Index>(k)));
         panel.x_range = {first, last};
         for (const double instant : instants) panel.references.push_back({false, instant, {}, 2});
     }
     figure.panels.back().x_label = axis_label(Message("time"), "s");
     const Rectangle frame = lay_out(figure).panels.front().box;
-    draw_pictures(figure.panels.front(), plant, record, instants, frame.width(), frame.height());
-    figure.motion = Motion{plant, 0, record.measured.size() > 0, record.simulated.size() > 0};
+    draw_pictures(figure.panels.front(), plant, motion_data, instants, frame.width(), frame.height());
+    figure.motion = Motion{plant, 0, motion_data.measured.size() > 0, motion_data.simulated.size() > 0};
     return figure;
 }
 

@@ -7,7 +7,7 @@
 namespace dynlab::inline figures {
 
 /// The signals that move a plant, one column per part, at increasing instants t in seconds. Either may be empty.
-struct MotionRecord {
+struct MotionData {
     Vector t;
     Matrix measured, simulated;
 };
@@ -24,6 +24,6 @@ inline constexpr double kMaxPictures = 50;
 /// A plant at some instants, each drawing at its instant on the time axis, above the signals that move it; dotted lines
 /// mark the instants. Measured motion is gray, behind simulated motion. Throws InvalidArgument for sizes that do not
 /// fit, or instants outside the data.
-Figure motion_plot(const PlantDrawing& plant, const MotionRecord& record, const MotionAppearance& look = {});
+Figure motion_plot(const PlantDrawing& plant, const MotionData& motion_data, const MotionAppearance& look = {});
 
 }  // namespace dynlab::inline figures

@@ -19,7 +19,7 @@ SampleView sample_view(const VectorView& samples) {
 }
 
 /// Without inputs.
-RegressionRecord regression_record(const IdData& data, const Experiment& experiment, Index output, Hold hold_y) {
+RegressionData regression_data(const IdData& data, const Experiment& experiment, Index output, Hold hold_y) {
     return {sample_view(experiment.y.col(output)), {}, {}, {}, {data.Ts, sample_view(experiment.t)}, data.hold, hold_y};
 }
 
@@ -48,13 +48,13 @@ DenominatorGroup::DenominatorGroup(const IdData& data, const TransferStructure& 
         }
         if (inputs.empty()) continue;
         for (const Experiment& experiment : data.experiments) {
-            RegressionRecord record = regression_record(data, experiment, output, hold_y);
+            RegressionData data_set = regression_data(data, experiment, output, hold_y);
             for (const Index input : inputs) {
-                record.u.push_back(sample_view(experiment.u.col(input)));
-                record.zeros.push_back(structure.channel(output, input).zeros);
-                record.delays.push_back(structure.channel(output, input).delay);
+                data_set.u.push_back(sample_view(experiment.u.col(input)));
+                data_set.zeros.push_back(structure.channel(output, input).zeros);
+                data_set.delays.push_back(structure.channel(output, input).delay);
             }
-            members_.push_back({std::move(record), places, outputs_.size()});
+            members_.push_back({std::move(data_set), places, outputs_.size()});
         }
         outputs_.push_back(output);
     }
@@ -64,13 +64,13 @@ DenominatorGroup::DenominatorGroup(const IdData& data, const TransferStructure& 
 
 Index DenominatorGroup::sample_count() const {
     Index count = 0;
-    for (const Member& member : members_) count += member.record.y.size();
+    for (const Member& member : members_) count += member.data_set.y.size();
     return count;
 }
 
-void DenominatorGroup::set_target(std::size_t record, const Vector& y) {
-    targets_[record] = y;
-    new (&members_[record].record.y) SampleView(targets_[record].data(), y.size());
+void DenominatorGroup::set_target(std::size_t data_set, const Vector& y) {
+    targets_[data_set] = y;
+    new (&members_[data_set].data_set.y) SampleView(targets_[data_set].data(), y.size());
 }
 
 void DenominatorGroup::set_weight(Index output, double weight) {
@@ -87,7 +87,7 @@ Vector DenominatorGroup::denominator(const VectorView& theta) const {
 std::vector<Vector> DenominatorGroup::numerators(const Member& member, const VectorView& theta) const {
     std::vector<Vector> B;
     std::size_t place = static_cast<std::size_t>(n_);
-    for (const int m : member.record.zeros) {
+    for (const int m : member.data_set.zeros) {
         Vector b(m + 1);
         for (double& value : b) value = theta[member.places[place++]];
         B.push_back(std::move(b));
@@ -96,7 +96,7 @@ std::vector<Vector> DenominatorGroup::numerators(const Member& member, const Vec
 }
 
 template <class Equations>
-NormalEquations DenominatorGroup::sum_over_records(const Equations& equations_of) const {
+NormalEquations DenominatorGroup::sum_over_experiments(const Equations& equations_of) const {
     if (members_.size() == 1 && weights_[0] == 1) return equations_of(members_.front());
     std::vector<NormalEquations> equations(members_.size());
     side_by_side(
@@ -120,20 +120,20 @@ NormalEquations DenominatorGroup::sum_over_records(const Equations& equations_of
 }
 
 NormalEquations DenominatorGroup::svf(const VectorView& E, double gain) const {
-    return sum_over_records([&](const Member& member) { return transfer_filters().svf(member.record, E, gain); });
+    return sum_over_experiments([&](const Member& member) { return transfer_filters().svf(member.data_set, E, gain); });
 }
 
 NormalEquations DenominatorGroup::auxiliary(const VectorView& E, const VectorView& theta, double gain) const {
     const Vector A = denominator(theta);
-    return sum_over_records([&](const Member& member) {
-        return transfer_filters().auxiliary(member.record, E, A, numerators(member, theta), gain);
+    return sum_over_experiments([&](const Member& member) {
+        return transfer_filters().auxiliary(member.data_set, E, A, numerators(member, theta), gain);
     });
 }
 
 NormalEquations DenominatorGroup::refined(const VectorView& theta, bool with_gram) const {
     const Vector A = denominator(theta);
-    return sum_over_records([&](const Member& member) {
-        return transfer_filters().refined(member.record, A, numerators(member, theta), with_gram);
+    return sum_over_experiments([&](const Member& member) {
+        return transfer_filters().refined(member.data_set, A, numerators(member, theta), with_gram);
     });
 }
 
@@ -154,15 +154,15 @@ double simulation_squares(const IdData& data, const TransferStructure& structure
     Vector squares(static_cast<Index>(data.experiments.size()));
     const auto simulate = [&](std::size_t e) {
         const Experiment& experiment = data.experiments[e];
-        RegressionRecord record = regression_record(data, experiment, output, Hold::kFoh);  // y is not filtered
+        RegressionData data_set = regression_data(data, experiment, output, Hold::kFoh);  // y is not filtered
         std::vector<Vector> A, B;
         for (Index input = 0; input < structure.inputs; ++input) {
-            record.u.push_back(sample_view(experiment.u.col(input)));
-            record.delays.push_back(structure.delay(theta, output, input));
+            data_set.u.push_back(sample_view(experiment.u.col(input)));
+            data_set.delays.push_back(structure.delay(theta, output, input));
             A.push_back(structure.denominator(theta, output, input));
             B.push_back(structure.numerator(theta, output, input));
         }
-        squares[static_cast<Index>(e)] = transfer_filters().output_error_squares(record, A, B);
+        squares[static_cast<Index>(e)] = transfer_filters().output_error_squares(data_set, A, B);
     };
     side_by_side(data.experiments.size(), simulate, data.sample_count() >= kSharedSamples);
     return squares.sum();

@@ -19,7 +19,7 @@ class DenominatorGroup {
     Index sample_count() const;  ///< over all experiments and outputs
     /// Replaces the measured output of one data set (index: experiments of the first output, then of the next) by y,
     /// the part of the output that this group explains.
-    void set_target(std::size_t record, const Vector& y);
+    void set_target(std::size_t data_set, const Vector& y);
     void set_weight(Index output, double weight);                   ///< of an output's squares; 1 unless set
     const std::vector<Index>& outputs() const { return outputs_; }  ///< the model's outputs it bears on
 
@@ -39,7 +39,7 @@ class DenominatorGroup {
 
     /// One output in one experiment.
     struct Member {
-        RegressionRecord record;
+        RegressionData data_set;
         std::vector<Index> places;  ///< places of the regression's parameters in the group's theta
         std::size_t output;         ///< in outputs()
     };
@@ -49,7 +49,7 @@ class DenominatorGroup {
 
   private:
     template <class Equations>
-    NormalEquations sum_over_records(const Equations& equations_of) const;
+    NormalEquations sum_over_experiments(const Equations& equations_of) const;
 
     Index n_, place_, count_;
     std::vector<Member> members_;

@@ -95,11 +95,11 @@ double DiscreteOutput::target_variation() const {
 /// Adds the share of one input in one experiment's output and its derivatives.
 void DiscreteOutput::add_channel(const Vector& theta, std::size_t experiment, std::size_t input, bool with_derivatives,
                                  DrivenSignals& all) const {
-    const SampledExperiment& record = experiments_[experiment];
-    const Index N = record.y.size(), nf = orders_.nf[input], nb = orders_.nb[input], nk = orders_.nk[input];
+    const SampledExperiment& data_set = experiments_[experiment];
+    const Index N = data_set.y.size(), nf = orders_.nf[input], nb = orders_.nb[input], nk = orders_.nk[input];
     const Index f_start = orders_.f_start(input), b_start = orders_.b_start(input);
     const Vector f = theta.segment(f_start, nf), b = theta.segment(b_start, nb);
-    const auto u = record.u.col(static_cast<Index>(input));
+    const auto u = data_set.u.col(static_cast<Index>(input));
     const double resting = steady() ? u[0] : 0, denominator = 1 + f.sum();
     Vector w = resting == 0 ? all_pole_filter(f, u) : all_pole_filter(f, u.array() - resting);  // u/F
     Vector x = Vector::Zero(N);

@@ -14,7 +14,7 @@ struct FilteredEquation {
     Vector y;
     Matrix Phi;
 };
-FilteredEquation filtered_equation(const RegressionRecord& record, const VectorView& E, double gain = 1);
+FilteredEquation filtered_equation(const RegressionData& data_set, const VectorView& E, double gain = 1);
 
 /// An estimate solves sum_k z(k) e(k) = 0: the terms of this sum, N x d and N. What its errors scatter by depends on
 /// how the terms depend on each other.
@@ -28,7 +28,7 @@ struct EstimatingTerms {
 /// With v = y - sum B_j/A u_j the error is e = gain A/E v, except for the effect of the hold of y between samples. For
 /// regular sampling and a stable model the terms are therefore the instruments, filtered by gain A/E backwards in time,
 /// and the output errors v, which no filter has colored.
-EstimatingTerms estimating_terms(const RegressionRecord& record, const VectorView& E, double gain,
+EstimatingTerms estimating_terms(const RegressionData& data_set, const VectorView& E, double gain,
                                  const CommonDenominator& model, const CommonDenominator* instrument = nullptr);
 
 /// The terms of a group at its `theta`, with an auxiliary model of parameters `instrument`: stacked by experiment and

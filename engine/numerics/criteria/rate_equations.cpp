@@ -45,47 +45,47 @@ double bump_slope(double s) {
 
 RateEquations derivative_equations(const IdData& data, std::size_t experiment, const FunctionLibrary& library,
                                    int window) {
-    const Experiment& record = data.experiments[experiment];
-    const Index N = record.y.rows();
+    const Experiment& data_set = data.experiments[experiment];
+    const Index N = data_set.y.rows();
     if (N < window)
         throw InvalidArgument(
             "sindy: each derivative needs {} samples, but an experiment has only {}. Use longer experiments or a "
             "shorter window",
             window, N);
     const Vector t = data.time(experiment);
-    Matrix X(N, record.y.cols()), rates(N, record.y.cols()), U(N, record.u.cols()), weights;
+    Matrix X(N, data_set.y.cols()), rates(N, data_set.y.cols()), U(N, data_set.u.cols()), weights;
     Index rows = 0, weights_at = -1;
     for (Index k = 0; k < N; ++k) {
         const Index first = std::clamp<Index>(k - window / 2, 0, N - window), last = first + window - 1;
-        if (input_jumps(data, record.u, first, last)) continue;
+        if (input_jumps(data, data_set.u, first, last)) continue;
         if (!data.regular() || k - first != weights_at) {
             weights = polynomial_weights(t.segment(first, window), k - first);
             weights_at = k - first;
         }
-        const auto samples = record.y.middleRows(first, window);
+        const auto samples = data_set.y.middleRows(first, window);
         X.row(rows) = weights.row(0) * samples;
         rates.row(rows) = weights.row(1) * samples;
-        U.row(rows++) = record.u.row(data.hold == Hold::kZoh ? first : k);
+        U.row(rows++) = data_set.u.row(data.hold == Hold::kZoh ? first : k);
     }
     return {library_values(library, X.topRows(rows), U.topRows(rows)), rates.topRows(rows)};
 }
 
 RateEquations weak_equations(const IdData& data, std::size_t experiment, const FunctionLibrary& library, double width) {
-    const Experiment& record = data.experiments[experiment];
-    const Index N = record.y.rows();
+    const Experiment& data_set = data.experiments[experiment];
+    const Index N = data_set.y.rows();
     const Vector t = data.time(experiment);
     // theta at the beginning and at the end of each interval between samples, with the input that acts within it
-    const Matrix begins = library_values(library, record.y, record.u);
+    const Matrix begins = library_values(library, data_set.y, data_set.u);
     Matrix ends = begins;
-    if (data.hold == Hold::kZoh && record.u.cols() > 0) {
-        Matrix held = record.u;
-        held.bottomRows(N - 1) = record.u.topRows(N - 1);
-        ends = library_values(library, record.y, held);
+    if (data.hold == Hold::kZoh && data_set.u.cols() > 0) {
+        Matrix held = data_set.u;
+        held.bottomRows(N - 1) = data_set.u.topRows(N - 1);
+        ends = library_values(library, data_set.y, held);
     }
     const double step = std::max(width / kCentersPerWidth, data.mean_step());
     const double room = t[N - 1] - t[0] - 2 * width;
     const Index rows = room < 0 ? 0 : static_cast<Index>(room / step) + 1;
-    RateEquations equations{Matrix::Zero(rows, library.count()), Matrix::Zero(rows, record.y.cols())};
+    RateEquations equations{Matrix::Zero(rows, library.count()), Matrix::Zero(rows, data_set.y.cols())};
     Index first = 0;
     for (Index row = 0; row < rows; ++row) {
         const double center = t[0] + width + step * static_cast<double>(row);
@@ -97,7 +97,7 @@ RateEquations weak_equations(const IdData& data, std::size_t experiment, const F
             ++inside;
             const double before = k > 0 ? (t[k] - t[k - 1]) / 2 : 0, after = k + 1 < N ? (t[k + 1] - t[k]) / 2 : 0;
             equations.Theta.row(row) += bump(s) * (before * ends.row(k) + after * begins.row(k));
-            equations.B.row(row) -= bump_slope(s) / width * (before + after) * record.y.row(k);
+            equations.B.row(row) -= bump_slope(s) / width * (before + after) * data_set.y.row(k);
         }
         if (inside < 3)
             throw InvalidArgument(

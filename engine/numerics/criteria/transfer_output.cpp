@@ -26,12 +26,12 @@ std::vector<Index> denominators_of(const TransferStructure& structure, Index out
 
 }  // namespace
 
-Sampling TransferOutput::Record::sampling() const {
+Sampling TransferOutput::ExperimentData::sampling() const {
     return {t.size() == 0 ? 1.0 : 0.0, SampleView(t.data(), t.size())};
 }
 
 struct TransferOutput::Block {
-    const Record& record;
+    const ExperimentData& data_set;
     Eigen::Ref<Vector> output;
     Matrix* sensitivities;
     Index row;
@@ -56,14 +56,14 @@ TransferOutput::TransferOutput(const TransferStructure& structure, const StartCo
         denominators_.push_back(denominators_of(structure, output));
     Index row = 0;
     for (const Experiment& experiment : data.experiments) {
-        Record record{experiment.u, experiment.y, Vector::Zero(structure.inputs), {}, row};
+        ExperimentData data_set{experiment.u, experiment.y, Vector::Zero(structure.inputs), {}, row};
         if (condition.state != InitialState::kZero && at_rest != AtRest::kNothing)
-            record.resting = record.u.row(0).transpose();
-        record.u.rowwise() -= record.resting.transpose();
-        if (!data.regular()) record.t = (experiment.t.array() - experiment.t[0]) / time_unit_;
-        row += record.y.size();
-        samples_ += record.y.rows();
-        experiments_.push_back(std::move(record));
+            data_set.resting = data_set.u.row(0).transpose();
+        data_set.u.rowwise() -= data_set.resting.transpose();
+        if (!data.regular()) data_set.t = (experiment.t.array() - experiment.t[0]) / time_unit_;
+        row += data_set.y.size();
+        samples_ += data_set.y.rows();
+        experiments_.push_back(std::move(data_set));
     }
     weights_ = Vector::Ones(structure.outputs);
     set_parameter_count();
@@ -166,18 +166,18 @@ Vector TransferOutput::target() const {
 
 void TransferOutput::mask_start(double seconds) {
     const double units = seconds / time_unit_;
-    for (Record& record : experiments_) {
-        const Index N = record.y.rows();
-        record.silent = 0;
-        while (record.silent < N &&
-               (record.t.size() > 0 ? record.t[record.silent] : static_cast<double>(record.silent)) < units)
-            ++record.silent;
+    for (ExperimentData& data_set : experiments_) {
+        const Index N = data_set.y.rows();
+        data_set.silent = 0;
+        while (data_set.silent < N &&
+               (data_set.t.size() > 0 ? data_set.t[data_set.silent] : static_cast<double>(data_set.silent)) < units)
+            ++data_set.silent;
     }
 }
 
 Index TransferOutput::masked_rows() const {
     Index rows = 0;
-    for (const Record& record : experiments_) rows += record.silent * structure_.outputs;
+    for (const ExperimentData& data_set : experiments_) rows += data_set.silent * structure_.outputs;
     return rows;
 }
 
@@ -259,15 +259,15 @@ void TransferOutput::add_channel(const Vector& theta, Index output, Index input,
         structure_.free_delays ? theta[structure_.delay_index(output, input)] : channel.delay / time_unit_;
     const Index n = den.size() - 1, m = num.size() - 1;
     const Index a = structure_.denominator_start(channel.denominator), b = structure_.numerator_start(output, input);
-    const auto u = block.record.u.col(input);
-    const double resting = block.record.resting[input];
+    const auto u = block.data_set.u.col(input);
+    const double resting = block.data_set.resting[input];
     const double gain = own_gains_ ? theta[gain_index(output, input)] : num[m] / den[n];
     if (resting != 0) block.output.array() += gain * resting;
     if (!block.sensitivities) {
-        block.output += transfer_filters().response(num, den, delay, u, block.record.sampling(), hold_);
+        block.output += transfer_filters().response(num, den, delay, u, block.data_set.sampling(), hold_);
         return;
     }
-    const Matrix all = transfer_filters().sensitivities(num, den, delay, u, block.record.sampling(), hold_);
+    const Matrix all = transfer_filters().sensitivities(num, den, delay, u, block.data_set.sampling(), hold_);
     block.output += all.col(0);
     block.columns(a, n) += all.middleCols(1, n);
     block.columns(b, m + 1) = all.middleCols(n + 1, m + 1);
@@ -284,7 +284,7 @@ void TransferOutput::add_free_motion(const Vector& theta, Index denominator, Ind
     Vector den(n + 1);
     den << 1, theta.segment(a, n);
     const Vector initial = theta.segment(place, n);
-    const Sampling sampling = block.record.sampling();
+    const Sampling sampling = block.data_set.sampling();
     const Index N = block.output.size();
     const Matrix motions = transfer_filters().free_responses(den, N, sampling);
     block.output += motions * initial;

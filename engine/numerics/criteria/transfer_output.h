@@ -76,7 +76,7 @@ class TransferOutput : public OutputErrorModel {
     std::vector<bool> bears_on(Index output) const;
 
   private:
-    struct Record {
+    struct ExperimentData {
         Matrix u, y;       // the inputs counted from where they rest
         Vector resting;    // first inputs, or zeros
         Vector t;          // in time units from the first on; empty with regular sampling
@@ -99,7 +99,7 @@ class TransferOutput : public OutputErrorModel {
     bool own_gains_, stable_only_ = false;
     Hold hold_;
     double time_unit_ = 1;
-    std::vector<Record> experiments_;
+    std::vector<ExperimentData> experiments_;
     std::vector<std::vector<Index>> denominators_;  // the different ones of each output
     Index samples_ = 0;
     Vector seconds_, weights_;

@@ -18,20 +18,20 @@ namespace {
 std::vector<Vector> output_errors(const Fit& estimate, const std::vector<SampledExperiment>& experiments) {
     const PredictionModel model(*estimate.orders, estimate.start, experiments);
     const Vector errors = model.target() - model.simulated(model.completed(estimate.theta));
-    std::vector<Vector> records;
+    std::vector<Vector> data_sets;
     Index first = 0;
     for (const Index length : model.lengths()) {
-        records.push_back(errors.segment(first, length));
+        data_sets.push_back(errors.segment(first, length));
         first += length;
     }
-    return records;
+    return data_sets;
 }
 
-double mean_square(const std::vector<Vector>& records) {
+double mean_square(const std::vector<Vector>& data_sets) {
     double squares = 0, count = 0;
-    for (const Vector& record : records) {
-        squares += record.squaredNorm();
-        count += static_cast<double>(record.size());
+    for (const Vector& data_set : data_sets) {
+        squares += data_set.squaredNorm();
+        count += static_cast<double>(data_set.size());
     }
     return squares / count;
 }
@@ -48,8 +48,8 @@ OutputErrorStart output_error_start(const IdData& data, const std::vector<Sample
     constexpr Index kLong = 400000, kBeginning = 100000;
     constexpr double kAsWell = 1.2;
     const PolynomialOrders system = PolynomialOrders::output_error(orders.nb, orders.nf, orders.nk);
-    const auto fit_to = [&](const IdData& record) {
-        return fit_discrete_output("bj", record, system, options, output_error_search(options));
+    const auto fit_to = [&](const IdData& data_set) {
+        return fit_discrete_output("bj", data_set, system, options, output_error_search(options));
     };
     if (data.experiments.size() == 1 && data.sample_count() >= kLong) {
         try {

@@ -53,21 +53,21 @@ void CraOptions::validate() const {
 
 CorrelationAnalysis cra(const IdData& data, const CraOptions& options) {
     options.validate();
-    IdData record = nonparametric_data("cra", data, kFewestSamplesOfCra + options.whitening, true);
-    Index shortest = record.sample_count();
-    for (const Experiment& experiment : record.experiments) shortest = std::min(shortest, experiment.y.rows());
+    IdData data_set = nonparametric_data("cra", data, kFewestSamplesOfCra + options.whitening, true);
+    Index shortest = data_set.sample_count();
+    for (const Experiment& experiment : data_set.experiments) shortest = std::min(shortest, experiment.y.rows());
     const Index lags = lags_or_default("cra", options.lags, shortest - options.whitening);
     CorrelationAnalysis result;
-    const Autoregression whitening = whitening_of(record, options.whitening);
+    const Autoregression whitening = whitening_of(data_set, options.whitening);
     result.whitening_filter = whitening.filter();
-    whiten(record, whitening);
-    const Vector input = joint_products(record, &Experiment::u, &Experiment::u, lags);
-    const double output = joint_products(record, &Experiment::y, &Experiment::y, 0)[0];
+    whiten(data_set, whitening);
+    const Vector input = joint_products(data_set, &Experiment::u, &Experiment::u, lags);
+    const double output = joint_products(data_set, &Experiment::y, &Experiment::y, 0)[0];
     result.input_correlation = input / input[0];
     ImpulseEstimate& impulse = result.impulse;
     impulse.t = Vector::LinSpaced(lags + 1, 0, static_cast<double>(lags)) * data.Ts;
-    impulse.response = joint_products(record, &Experiment::y, &Experiment::u, lags) / input[0];
-    const auto count = static_cast<double>(record.sample_count());
+    impulse.response = joint_products(data_set, &Experiment::y, &Experiment::u, lags) / input[0];
+    const auto count = static_cast<double>(data_set.sample_count());
     impulse.noise_variance = std::max(output - impulse.response.squaredNorm() * input[0], 0.0) / count;
     impulse.null_std = Vector::Constant(lags + 1, std::sqrt(output / (count * input[0])));
     impulse.std = impulse.null_std;

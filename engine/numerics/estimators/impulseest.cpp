@@ -117,17 +117,17 @@ void ImpulseestOptions::validate() const {
 
 RegressedResponse impulseest(const IdData& data, const ImpulseestOptions& options) {
     options.validate();
-    const IdData record = nonparametric_data("impulseest", data, kFewestSamplesOfImpulseest, false);
-    Index shortest = record.sample_count();
-    for (const Experiment& experiment : record.experiments) shortest = std::min(shortest, experiment.y.rows());
+    const IdData data_set = nonparametric_data("impulseest", data, kFewestSamplesOfImpulseest, false);
+    Index shortest = data_set.sample_count();
+    for (const Experiment& experiment : data_set.experiments) shortest = std::min(shortest, experiment.y.rows());
     const Index n = lags_or_default("impulseest", options.lags, shortest);
-    const ResponseSums sums = sums_of(record, n);
+    const ResponseSums sums = sums_of(data_set, n);
     if (!(sums.gram.diagonal().maxCoeff() > 0) || !(sums.energy > 0))
         throw InvalidArgument("impulseest: the input is constant after {}; use fewer lags",
                               plural(n, "{} sample", "{} samples"));
     RegressedResponse estimate;
     estimate.t = Vector::LinSpaced(n + 1, 0, static_cast<double>(n)) * data.Ts;
-    options.smooth ? fit_smoothly(sums, options.kernel, estimate) : fit_plainly(record, n, sums.count, estimate);
+    options.smooth ? fit_smoothly(sums, options.kernel, estimate) : fit_plainly(data_set, n, sums.count, estimate);
     const Message lags = plural(n, "{} lag", "{} lags");
     estimate.message = options.smooth ? Message("Impulse response over {} by regularized least squares.", lags)
                                       : Message("Impulse response over {} by ordinary least squares.", lags);

@@ -70,9 +70,9 @@ InstrumentEstimate solve_instruments(const ArxEquations& equations, const ArxEqu
 double mean_square(const std::vector<Vector>& errors, Index parameters) {
     double squares = 0;
     Index count = 0;
-    for (const Vector& record : errors) {
-        squares += record.squaredNorm();
-        count += record.size();
+    for (const Vector& data_set : errors) {
+        squares += data_set.squaredNorm();
+        count += data_set.size();
     }
     return squares / static_cast<double>(count - parameters);
 }

@@ -66,7 +66,7 @@ void color_covariance(Fit& fit, const IdData& data, const SvfOptions& options, b
             estimating_terms(group, E, gain, fit.theta.segment(group.place(), d), instruments ? &auxiliary : nullptr);
         std::vector<Index> lengths;
         for (const DenominatorGroup::Member& member : group.members())
-            if (member.output == 0) lengths.push_back(member.record.y.size());
+            if (member.output == 0) lengths.push_back(member.data_set.y.size());
         fit.covariance.block(group.place(), group.place(), d, d) =
             robust_covariance(solve_by_lu(sums.z_phi, Matrix::Identity(d, d)).x, terms.Z, terms.errors, lengths,
                               static_cast<Index>(group.outputs().size()))

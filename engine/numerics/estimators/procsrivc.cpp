@@ -184,9 +184,9 @@ Fit best_fit_to_long(ProcessProblem problem, const IdData& data, const std::vect
     ProcessProblem trial = problem;
     if (!problem.options.largest_delay)
         trial.range.largest =
-            std::max(problem.range.least, std::min(problem.range.largest, shortest_record(beginning) / 4));
+            std::max(problem.range.least, std::min(problem.range.largest, shortest_experiment(beginning) / 4));
     if (data.sample_count() < 2 * beginning.sample_count() || !inputs_change(beginning) ||
-        shortest_record(beginning) <= trial.range.largest) {
+        shortest_experiment(beginning) <= trial.range.largest) {
         problem.likely_delays = likely_delays(data, problem);
         return problem.best_fit(data, conditions);
     }
@@ -300,12 +300,12 @@ void warn_of_undetermined(Fit& fit, const IdData& data, const FitOptions& option
 }
 
 /// The simulated output of all experiments, its operating points included.
-Vector simulated(const Fit& fit, const ProcessProblem& problem, const CenteredData& record) {
-    const TransferOutput model = problem.output(record.data, fit.start);
+Vector simulated(const Fit& fit, const ProcessProblem& problem, const CenteredData& data_set) {
+    const TransferOutput model = problem.output(data_set.data, fit.start);
     const Vector seconds = process_seconds(problem.structure, model);
     Vector output = process_output(problem.structure, model).output_at(search_point(fit, model, seconds));
-    for (std::size_t e = 0; e < record.removed.size(); ++e)
-        output.segment(model.row(e, 0), model.rows(e)).array() += record.removed[e][0].output;
+    for (std::size_t e = 0; e < data_set.removed.size(); ++e)
+        output.segment(model.row(e, 0), model.rows(e)).array() += data_set.removed[e][0].output;
     return output;
 }
 
@@ -314,18 +314,18 @@ Vector simulated(const Fit& fit, const ProcessProblem& problem, const CenteredDa
 Fit procsrivc(const IdData& data, const ProcessStructure& structure, const ProcsrivcOptions& options) {
     options.validate();
     check_process_data(data);
-    const CenteredData record = centered_for(data, options.offset);
+    const CenteredData data_set = centered_for(data, options.offset);
     const ProcessProblem problem{structure, delay_range(data, options), options};
-    const auto conditions = conditions_for(record.data, structure, options);
+    const auto conditions = conditions_for(data_set.data, structure, options);
     const Index values = problem.value_count(data, conditions[0]), fewest = kSamplesPerProcessParameter * values;
     if (data.sample_count() < fewest)
         throw InvalidArgument("procsrivc: at least {} samples are needed to estimate {} values, but the data have {}",
                               fewest, values, data.sample_count());
-    Fit fit = best_fit_to_long(problem, record.data, conditions);
-    fit = without_masked_inputs(problem, record.data, std::move(fit));
+    Fit fit = best_fit_to_long(problem, data_set.data, conditions);
+    fit = without_masked_inputs(problem, data_set.data, std::move(fit));
     set_process(fit, structure);
-    fit.output = simulated(fit, problem, record);
-    add_operating_points(fit, record.removed);
+    fit.output = simulated(fit, problem, data_set);
+    add_operating_points(fit, data_set.removed);
     warn_of_search(fit, options);
     warn_of_undetermined(fit, data, options);
     double longest = 0;

@@ -155,12 +155,12 @@ class Passes {
     bool without_noise_ = false;
 
   private:
-    std::vector<Vector> residual_records() const {
+    std::vector<Vector> residuals_by_experiment() const {
         const Vector errors = y_ - simulated();
-        std::vector<Vector> records;
+        std::vector<Vector> data_sets;
         for (std::size_t e = 0; e < model_.experiment_count(); ++e)
-            records.push_back(errors.segment(model_.row(e, 0), model_.rows(e)).tail(model_.counted_rows(e)));
-        return records;
+            data_sets.push_back(errors.segment(model_.row(e, 0), model_.rows(e)).tail(model_.counted_rows(e)));
+        return data_sets;
     }
 
     /// Largest relative change of theta and the noise model.
@@ -169,7 +169,7 @@ class Passes {
         const double tolerance = std::min(options_.tolerance, 1e-6);
         without_noise_ = exact(y_ - simulated());
         noise_ = without_noise_ ? ArmaNoise::white(orders_.nc, orders_.nd)
-                                : estimate_arma(residual_records(), orders_.nc, orders_.nd, tolerance,
+                                : estimate_arma(residuals_by_experiment(), orders_.nc, orders_.nd, tolerance,
                                                 noise_known ? &before : nullptr);
         const WhitenedOutput whitened_output(model_, noise_, y_);
         solution_ = minimize_output_error(whitened_output, whitened_output.target(), theta_,

@@ -136,14 +136,14 @@ bool gains_nothing(const Fit& estimate, const IdData& data, const FitOptions& op
     if (estimate.theta.size() < kFewestToCompare) return false;
     const bool whole = data.sample_count() <= 2 * kComparedSamples;
     const IdData part = whole ? IdData() : beginning_of(data, kComparedSamples);
-    const IdData& record = whole ? data : part;
+    const IdData& data_set = whole ? data : part;
     FitOptions few = options.limited(kComparedPasses, kComparedTolerance);
     if (!few.lambda) few.lambda = typical_frequency(estimate);
     const auto solve = [&](const TransferStructure& structure, const std::vector<Vector>& starts) {
-        return solution_by_passes(record, structure, starts, few);
+        return solution_by_passes(data_set, structure, starts, few);
     };
-    const double loss = whole ? estimate.loss : simulation_loss(record, estimate.structure, estimate.theta);
-    return !NestedSearch(record, solve).better_starts(estimate.structure, (1 + kNoGain) * loss).empty();
+    const double loss = whole ? estimate.loss : simulation_loss(data_set, estimate.structure, estimate.theta);
+    return !NestedSearch(data_set, solve).better_starts(estimate.structure, (1 + kNoGain) * loss).empty();
 }
 
 /// Whether the errors follow the input: what is missing may be within reach of the structure.

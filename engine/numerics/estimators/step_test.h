@@ -19,14 +19,14 @@ struct StepTestResult {
     TransferFunction model;
     std::vector<std::string> names;    ///< of the parameters
     Vector parameters;                 ///< one for each name
-    StepRecord record;                 ///< levels with their intervals, step, noise, smoothed response
+    StepData step_data;                ///< levels with their intervals, step, noise, smoothed response
     std::vector<ReadingPoint> points;  ///< in the order of time
     Message message;                   ///< one sentence or two
 };
 
 /// Parameters of a transfer function read off a step response as one does with a ruler: K = output change over
 /// input change from the two plateaus, the times from the smoothed response, which makes the readings insensitive to
-/// noise (see read_step_record, also for what throws). They are starting points, not optimal estimates; no
+/// noise (see read_step_data, also for what throws). They are starting points, not optimal estimates; no
 /// standard errors come with them.
 
 /// K/(1 + T s), names {"K", "T"}: T = Tr5/3, Tr5 the time after the step from which the smoothed response stays within

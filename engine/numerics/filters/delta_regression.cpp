@@ -28,23 +28,23 @@ StateOutputs<4> derivatives(const VectorView& den, int highest) {
 }
 
 /// p^n/A .. 1/A of the output.
-DeltaSignal filtered_output(const RegressionRecord& record, const SampledFilter<4>& filter, const VectorView& den) {
-    return delta_signal(filter, derivatives(den, filter.poles), record.y, record.hold_y, 0, false);
+DeltaSignal filtered_output(const RegressionData& data_set, const SampledFilter<4>& filter, const VectorView& den) {
+    return delta_signal(filter, derivatives(den, filter.poles), data_set.y, data_set.hold_y, 0, false);
 }
 
 template <int room>
-DeltaSignal outputs_of_input(const RegressionRecord& record, std::size_t input, const SampledFilter<room>& filter,
+DeltaSignal outputs_of_input(const RegressionData& data_set, std::size_t input, const SampledFilter<room>& filter,
                              const StateOutputs<room>& outputs, bool longer) {
-    return delta_signal(filter, outputs, record.u[input], record.hold, record.delays[input], longer);
+    return delta_signal(filter, outputs, data_set.u[input], data_set.hold, data_set.delays[input], longer);
 }
 
 /// p^m/A .. 1/A of an input.
-DeltaSignal filtered_input(const RegressionRecord& record, std::size_t input, const SampledFilter<4>& filter,
+DeltaSignal filtered_input(const RegressionData& data_set, std::size_t input, const SampledFilter<4>& filter,
                            const VectorView& den, bool longer) {
-    return outputs_of_input(record, input, filter, derivatives(den, record.zeros[input]), longer);
+    return outputs_of_input(data_set, input, filter, derivatives(den, data_set.zeros[input]), longer);
 }
 
-DeltaSignal simulated(const RegressionRecord& record, std::size_t input, const VectorView& A, const Vector& B,
+DeltaSignal simulated(const RegressionData& data_set, std::size_t input, const VectorView& A, const Vector& B,
                       bool longer) {
     const StateOutputs<4> of_z = derivatives(A, static_cast<int>(B.size()) - 1);
     StateOutputs<4> output;
@@ -53,7 +53,7 @@ DeltaSignal simulated(const RegressionRecord& record, std::size_t input, const V
         output.C[0].add(B[j], of_z.C[j]);
         output.D[0] += B[j] * of_z.D[j];
     }
-    return outputs_of_input(record, input, SampledFilter<4>(A, record.sampling.Ts, false), output, longer);
+    return outputs_of_input(data_set, input, SampledFilter<4>(A, data_set.sampling.Ts, false), output, longer);
 }
 
 /// A signal as it is.
@@ -68,7 +68,7 @@ DeltaSignal unfiltered(const SampleView& samples) {
 
 /// SRIVC's instruments -p^(n-1) B/A^2 .. -B/A^2, p^m/A .. 1/A of one input: of z = u/A and w = z/A.
 template <int room>
-DeltaSignal sensitivities(const RegressionRecord& record, std::size_t input, const SampledFilter<room>& cascade,
+DeltaSignal sensitivities(const RegressionData& data_set, std::size_t input, const SampledFilter<room>& cascade,
                           const VectorView& A, const Vector& B, bool longer) {
     const int n = cascade.poles, m = static_cast<int>(B.size()) - 1;
     // Row r: p^r w, from A(p) w = z for r >= n.
@@ -87,16 +87,16 @@ DeltaSignal sensitivities(const RegressionRecord& record, std::size_t input, con
         std::copy_n(of_z.C[i].at, n, outputs.C[n + i].at);
         outputs.D[n + i] = of_z.D[i];
     }
-    return outputs_of_input(record, input, cascade, outputs, longer);
+    return outputs_of_input(data_set, input, cascade, outputs, longer);
 }
 
 /// p^(n-1)/E .. 1/E of the sampled output of B/A, then p^m/E .. 1/E of the input, which is held: products of the
 /// sampled systems' numerators over A E.
-DeltaSignal auxiliary(const RegressionRecord& record, std::size_t input, const SampledFilter<4>& filter,
+DeltaSignal auxiliary(const RegressionData& data_set, std::size_t input, const SampledFilter<4>& filter,
                       const VectorView& E, const VectorView& A, const Vector& B, const DeltaSignal& filtered_y) {
     const int n = filter.poles;
-    const DeltaSignal of_u = filtered_input(record, input, filter, E, false);
-    const DeltaSignal model = simulated(record, input, A, B, false);
+    const DeltaSignal of_u = filtered_input(data_set, input, filter, E, false);
+    const DeltaSignal model = simulated(data_set, input, A, B, false);
     StateVector<4> of_filter, of_model;
     std::copy_n(of_u.chain.alpha.data(), n, of_filter.at);
     std::copy_n(model.chain.alpha.data(), n, of_model.at);
@@ -219,18 +219,18 @@ struct EquationOutputs {
 
 /// Regularly sampled, and not so slowly that the filter 1/A forgets everything from one sample to the next: states that
 /// follow their input at once are no combinations of its differences.
-bool is_sampled_for(const RegressionRecord& record, const VectorView& A) {
+bool is_sampled_for(const RegressionData& data_set, const VectorView& A) {
     constexpr double kFastestPole = 5;  // mean of the poles times the sampling time
-    const double Ts = record.sampling.Ts;
-    return Ts > 0 && record.y.size() > 1 && A.allFinite() && A.size() > 1 &&
+    const double Ts = data_set.sampling.Ts;
+    return Ts > 0 && data_set.y.size() > 1 && A.allFinite() && A.size() > 1 &&
            std::abs(A[1]) * Ts < kFastestPole * static_cast<double>(A.size() - 1);
 }
 
 /// Whether an input's chain needs another column (delta_signal): all then have one.
-bool needs_longer(const RegressionRecord& record) {
-    return record.hold == Hold::kFoh && std::any_of(record.delays.begin(), record.delays.end(), [&](double delay) {
-               return split_delay(delay, record.sampling.Ts).rest > 0;
-           });
+bool needs_longer(const RegressionData& data_set) {
+    return data_set.hold == Hold::kFoh &&
+           std::any_of(data_set.delays.begin(), data_set.delays.end(),
+                       [&](double delay) { return split_delay(delay, data_set.sampling.Ts).rest > 0; });
 }
 
 /// Models whose chains have loops.
@@ -245,16 +245,17 @@ void append_range(std::vector<Index>& places, Index first, Index count) {
 
 }  // namespace
 
-std::optional<NormalEquations> delta_svf_equations(const RegressionRecord& record, const VectorView& E, double gain) {
-    if (!has_loops(E) || !is_sampled_for(record, E)) return {};
-    const bool longer = needs_longer(record);
+std::optional<NormalEquations> delta_svf_equations(const RegressionData& data_set, const VectorView& E, double gain) {
+    if (!has_loops(E) || !is_sampled_for(data_set, E)) return {};
+    const bool longer = needs_longer(data_set);
     EquationOutputs equation{E.size() - 1, {1}, -1, {}};
-    DeltaSignals signals(1 + record.u.size());
-    const SampledFilter<4> filter(E, record.sampling.Ts, false);
-    signals.add(filtered_output(record, filter, E));
-    for (std::size_t j = 0; j < record.u.size(); ++j)
-        append_range(equation.inputs, signals.add(filtered_input(record, j, filter, E, longer)), record.zeros[j] + 1);
-    const std::optional<Matrix> products = signals.products(record.y.size());
+    DeltaSignals signals(1 + data_set.u.size());
+    const SampledFilter<4> filter(E, data_set.sampling.Ts, false);
+    signals.add(filtered_output(data_set, filter, E));
+    for (std::size_t j = 0; j < data_set.u.size(); ++j)
+        append_range(equation.inputs, signals.add(filtered_input(data_set, j, filter, E, longer)),
+                     data_set.zeros[j] + 1);
+    const std::optional<Matrix> products = signals.products(data_set.y.size());
     if (!products) return {};
     NormalEquations sums = equation.equations(*products, gain, false);
     sums.z_z = sums.z_phi;
@@ -262,25 +263,25 @@ std::optional<NormalEquations> delta_svf_equations(const RegressionRecord& recor
     return sums;
 }
 
-std::optional<NormalEquations> delta_auxiliary_equations(const RegressionRecord& record, const VectorView& E,
+std::optional<NormalEquations> delta_auxiliary_equations(const RegressionData& data_set, const VectorView& E,
                                                          const VectorView& A, const std::vector<Vector>& B,
                                                          double gain) {
-    if (!has_loops(E) || !is_sampled_for(record, E) || record.hold != Hold::kZoh || A.size() != E.size() ||
-        !is_sampled_for(record, A))
+    if (!has_loops(E) || !is_sampled_for(data_set, E) || data_set.hold != Hold::kZoh || A.size() != E.size() ||
+        !is_sampled_for(data_set, A))
         return {};
     for (const Vector& numerator : B)
         if (numerator.size() >= A.size()) return {};
     const Index n = E.size() - 1;
     EquationOutputs equation{n, {}, -1, {}};
-    DeltaSignals signals(1 + record.u.size());
-    const SampledFilter<4> filter(E, record.sampling.Ts, false);
-    signals.add(filtered_output(record, filter, E));
-    for (std::size_t j = 0; j < record.u.size(); ++j) {
-        const Index first = signals.add(auxiliary(record, j, filter, E, A, B[j], signals[0]));
+    DeltaSignals signals(1 + data_set.u.size());
+    const SampledFilter<4> filter(E, data_set.sampling.Ts, false);
+    signals.add(filtered_output(data_set, filter, E));
+    for (std::size_t j = 0; j < data_set.u.size(); ++j) {
+        const Index first = signals.add(auxiliary(data_set, j, filter, E, A, B[j], signals[0]));
         equation.instruments.push_back(first);
-        append_range(equation.inputs, first + n, record.zeros[j] + 1);
+        append_range(equation.inputs, first + n, data_set.zeros[j] + 1);
     }
-    const std::optional<Matrix> products = signals.products(record.y.size(), false);
+    const std::optional<Matrix> products = signals.products(data_set.y.size(), false);
     if (!products) return {};
     return equation.equations(*products, gain, true);
 }
@@ -298,43 +299,43 @@ bool poles_far_apart(const SampledFilter<4>& filter) {
 }
 
 template <int room>
-std::optional<NormalEquations> refined(const RegressionRecord& record, const VectorView& A,
+std::optional<NormalEquations> refined(const RegressionData& data_set, const VectorView& A,
                                        const std::vector<Vector>& B, bool with_gram) {
     const Index n = A.size() - 1;
-    const SampledFilter<room> cascade(A, record.sampling.Ts, true);
+    const SampledFilter<room> cascade(A, data_set.sampling.Ts, true);
     const SampledFilter<4> filter = cascade.first();
     if (poles_far_apart(filter)) return {};
     EquationOutputs equation{n, {}, 1, {}};
-    DeltaSignals signals(1 + record.u.size());
-    signals.add(filtered_output(record, filter, A));
-    const bool longer = needs_longer(record);
-    for (std::size_t j = 0; j < record.u.size(); ++j) {
-        const Index first = signals.add(sensitivities(record, j, cascade, A, B[j], longer));
+    DeltaSignals signals(1 + data_set.u.size());
+    signals.add(filtered_output(data_set, filter, A));
+    const bool longer = needs_longer(data_set);
+    for (std::size_t j = 0; j < data_set.u.size(); ++j) {
+        const Index first = signals.add(sensitivities(data_set, j, cascade, A, B[j], longer));
         equation.instruments.push_back(first);
         append_range(equation.inputs, first + n, B[j].size());
     }
-    const std::optional<Matrix> products = signals.products(record.y.size(), false);
+    const std::optional<Matrix> products = signals.products(data_set.y.size(), false);
     if (!products) return {};
     return equation.equations(*products, 1, with_gram);
 }
 
 }  // namespace
 
-std::optional<NormalEquations> delta_refined_equations(const RegressionRecord& record, const VectorView& A,
+std::optional<NormalEquations> delta_refined_equations(const RegressionData& data_set, const VectorView& A,
                                                        const std::vector<Vector>& B, bool with_gram) {
-    if (!has_loops(A) || !is_sampled_for(record, A)) return {};
-    return A.size() - 1 <= 2 ? refined<4>(record, A, B, with_gram) : refined<8>(record, A, B, with_gram);
+    if (!has_loops(A) || !is_sampled_for(data_set, A)) return {};
+    return A.size() - 1 <= 2 ? refined<4>(data_set, A, B, with_gram) : refined<8>(data_set, A, B, with_gram);
 }
 
-std::optional<Matrix> delta_output_products(const RegressionRecord& record, const std::vector<Vector>& A,
+std::optional<Matrix> delta_output_products(const RegressionData& data_set, const std::vector<Vector>& A,
                                             const std::vector<Vector>& B) {
-    const auto fits = [&](const Vector& den) { return den.size() == A[0].size() && is_sampled_for(record, den); };
+    const auto fits = [&](const Vector& den) { return den.size() == A[0].size() && is_sampled_for(data_set, den); };
     if (!has_loops(A[0]) || !std::all_of(A.begin(), A.end(), fits)) return {};
-    const bool longer = needs_longer(record);
-    DeltaSignals signals(1 + record.u.size());
-    signals.add(unfiltered(record.y));
-    for (std::size_t j = 0; j < record.u.size(); ++j) signals.add(simulated(record, j, A[j], B[j], longer));
-    return signals.products(record.y.size());
+    const bool longer = needs_longer(data_set);
+    DeltaSignals signals(1 + data_set.u.size());
+    signals.add(unfiltered(data_set.y));
+    for (std::size_t j = 0; j < data_set.u.size(); ++j) signals.add(simulated(data_set, j, A[j], B[j], longer));
+    return signals.products(data_set.y.size());
 }
 
 }  // namespace dynlab::inline numerics

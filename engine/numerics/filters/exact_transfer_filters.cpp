@@ -36,20 +36,20 @@ class ExactTransferFilters : public TransferFilters {
             [&](const VectorView& t) { return numerics::free_sensitivities(A, initial, t); });
     }
 
-    NormalEquations svf(const RegressionRecord& record, const VectorView& E, double gain) const override {
-        return svf_equations(record, E, gain);
+    NormalEquations svf(const RegressionData& data_set, const VectorView& E, double gain) const override {
+        return svf_equations(data_set, E, gain);
     }
-    NormalEquations auxiliary(const RegressionRecord& record, const VectorView& E, const VectorView& A,
+    NormalEquations auxiliary(const RegressionData& data_set, const VectorView& E, const VectorView& A,
                               const std::vector<Vector>& B, double gain) const override {
-        return auxiliary_equations(record, E, A, B, gain);
+        return auxiliary_equations(data_set, E, A, B, gain);
     }
-    NormalEquations refined(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B,
+    NormalEquations refined(const RegressionData& data_set, const VectorView& A, const std::vector<Vector>& B,
                             bool with_gram) const override {
-        return refined_equations(record, A, B, with_gram);
+        return refined_equations(data_set, A, B, with_gram);
     }
-    double output_error_squares(const RegressionRecord& record, const std::vector<Vector>& A,
+    double output_error_squares(const RegressionData& data_set, const std::vector<Vector>& A,
                                 const std::vector<Vector>& B) const override {
-        return numerics::output_error_squares(record, A, B);
+        return numerics::output_error_squares(data_set, A, B);
     }
 };
 

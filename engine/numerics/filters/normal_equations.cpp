@@ -14,7 +14,7 @@ constexpr Index kStoredSamples = 50'000;  // up to this count outputs are stored
 /// The chains of one experiment, with numbered outputs, and the role of each output.
 class Equation {
   public:
-    Equation(const RegressionRecord& record, Index n) : record_(record), n_(n) {}
+    Equation(const RegressionData& data_set, Index n) : data_set_(data_set), n_(n) {}
 
     /// Outputs first, first + 1, ... of a new chain.
     Index add(FilterChain chain) {
@@ -24,11 +24,13 @@ class Equation {
         return first;
     }
     /// p^n y_f ... y_f.
-    void add_output(const VectorView& filter) { y_ = add({record_.y, derivatives_filter(filter, n_), record_.hold_y}); }
+    void add_output(const VectorView& filter) {
+        y_ = add({data_set_.y, derivatives_filter(filter, n_), data_set_.hold_y});
+    }
     void add_inputs(const VectorView& filter) {
-        for (std::size_t j = 0; j < record_.u.size(); ++j) {
-            const Index m = record_.zeros[j];
-            set_input(add({record_.u[j], derivatives_filter(filter, m), record_.hold, record_.delays[j]}), m);
+        for (std::size_t j = 0; j < data_set_.u.size(); ++j) {
+            const Index m = data_set_.zeros[j];
+            set_input(add({data_set_.u[j], derivatives_filter(filter, m), data_set_.hold, data_set_.delays[j]}), m);
         }
     }
     /// The derivatives of input j begin at this output.
@@ -48,7 +50,7 @@ class Equation {
         return outputs;
     }
     Matrix products(const std::vector<Index>& left, const std::vector<Index>& right) const {
-        return chain_products(chains_, record_.sampling, left, right, sums_);
+        return chain_products(chains_, data_set_.sampling, left, right, sums_);
     }
     /// Outputs for the n first instruments: sums over the inputs, where there are several. `firsts` are the places
     /// where the n outputs of each input begin.
@@ -79,7 +81,7 @@ class Equation {
     }
 
   private:
-    const RegressionRecord& record_;
+    const RegressionData& data_set_;
     Index n_, outputs_ = 0, y_ = 0;
     std::vector<FilterChain> chains_;
     std::vector<Index> inputs_;
@@ -88,10 +90,10 @@ class Equation {
 
 }  // namespace
 
-NormalEquations svf_equations(const RegressionRecord& record, const VectorView& E, double gain) {
-    if (auto equations = delta_svf_equations(record, E, gain)) return *std::move(equations);
+NormalEquations svf_equations(const RegressionData& data_set, const VectorView& E, double gain) {
+    if (auto equations = delta_svf_equations(data_set, E, gain)) return *std::move(equations);
     const Index n = E.size() - 1;
-    Equation equation(record, n);
+    Equation equation(data_set, n);
     equation.add_output(E);
     equation.add_inputs(E);
     const std::vector<Index> columns = equation.right();
@@ -102,17 +104,17 @@ NormalEquations svf_equations(const RegressionRecord& record, const VectorView& 
     return {all.topLeftCorner(d, d), all.col(d).head(d), all.topLeftCorner(d, d), all(d, d)};
 }
 
-NormalEquations auxiliary_equations(const RegressionRecord& record, const VectorView& E, const VectorView& A,
+NormalEquations auxiliary_equations(const RegressionData& data_set, const VectorView& E, const VectorView& A,
                                     const std::vector<Vector>& B, double gain) {
-    if (auto equations = delta_auxiliary_equations(record, E, A, B, gain)) return *std::move(equations);
+    if (auto equations = delta_auxiliary_equations(data_set, E, A, B, gain)) return *std::move(equations);
     const Index n = E.size() - 1;
-    Equation equation(record, n);
+    Equation equation(data_set, n);
     equation.add_output(E);
     equation.add_inputs(E);
     std::vector<Index> firsts;
-    for (std::size_t j = 0; j < record.u.size(); ++j) {
-        FilterChain chain{record.u[j], derivatives_filter(E, n - 1), record.hold_y};
-        chain.front = FrontModel{transfer_system(B[j], A), record.hold, record.delays[j]};
+    for (std::size_t j = 0; j < data_set.u.size(); ++j) {
+        FilterChain chain{data_set.u[j], derivatives_filter(E, n - 1), data_set.hold_y};
+        chain.front = FrontModel{transfer_system(B[j], A), data_set.hold, data_set.delays[j]};
         firsts.push_back(equation.add(std::move(chain)));
     }
     std::vector<Index> z = equation.summed_over_inputs(firsts);
@@ -124,16 +126,16 @@ NormalEquations auxiliary_equations(const RegressionRecord& record, const Vector
 namespace {
 
 /// The outputs for SRIVC's z, of chains that this adds.
-std::vector<Index> add_sensitivities(Equation& equation, const RegressionRecord& record, const VectorView& A,
+std::vector<Index> add_sensitivities(Equation& equation, const RegressionData& data_set, const VectorView& A,
                                      const std::vector<Vector>& B) {
     const Index n = A.size() - 1;
     std::vector<Index> firsts;
-    for (std::size_t j = 0; j < record.u.size(); ++j) {
+    for (std::size_t j = 0; j < data_set.u.size(); ++j) {
         SingleInputSystem system = sensitivity_system(B[j], A);
         const Index m = B[j].size() - 1;
         system.C = system.C.middleRows(1, n + m + 1).eval();
         system.D = system.D.segment(1, n + m + 1).eval();
-        firsts.push_back(equation.add({record.u[j], std::move(system), record.hold, record.delays[j]}));
+        firsts.push_back(equation.add({data_set.u[j], std::move(system), data_set.hold, data_set.delays[j]}));
         equation.set_input(firsts.back() + n, m);
     }
     std::vector<Index> z = equation.summed_over_inputs(firsts);
@@ -143,37 +145,37 @@ std::vector<Index> add_sensitivities(Equation& equation, const RegressionRecord&
 
 }  // namespace
 
-NormalEquations refined_equations(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B,
+NormalEquations refined_equations(const RegressionData& data_set, const VectorView& A, const std::vector<Vector>& B,
                                   bool with_gram) {
-    if (auto equations = delta_refined_equations(record, A, B, with_gram)) return *std::move(equations);
-    Equation equation(record, A.size() - 1);
+    if (auto equations = delta_refined_equations(data_set, A, B, with_gram)) return *std::move(equations);
+    Equation equation(data_set, A.size() - 1);
     equation.add_output(A);
-    const std::vector<Index> z = add_sensitivities(equation, record, A, B);
+    const std::vector<Index> z = add_sensitivities(equation, data_set, A, B);
     return equation.with_instruments(z, 1, with_gram);
 }
 
-double output_error_squares(const RegressionRecord& record, const std::vector<Vector>& A,
+double output_error_squares(const RegressionData& data_set, const std::vector<Vector>& A,
                             const std::vector<Vector>& B) {
     // The quickest, where enough digits are left: nearly noise-free data go the long way.
     constexpr double kLeft = 1e-4;
-    if (const auto sums = delta_output_products(record, A, B)) {
+    if (const auto sums = delta_output_products(data_set, A, B)) {
         Vector error = Vector::Constant(sums->rows(), -1);
         error[0] = 1;
         const double squares = error.dot(*sums * error);
         if (squares > kLeft * sums->diagonal().maxCoeff()) return squares;
     }
-    std::vector<FilterChain> chains{{record.y, no_filter(), record.hold_y}};
-    for (std::size_t j = 0; j < record.u.size(); ++j)
-        chains.push_back({record.u[j], transfer_system(B[j], A[j]), record.hold, record.delays[j]});
-    if (!(record.sampling.Ts > 0) || record.y.size() <= kStoredSamples) {
-        Vector error = record.y;
-        for (std::size_t j = 1; j < chains.size(); ++j) error -= chain_outputs(chains[j], record.sampling).col(0);
+    std::vector<FilterChain> chains{{data_set.y, no_filter(), data_set.hold_y}};
+    for (std::size_t j = 0; j < data_set.u.size(); ++j)
+        chains.push_back({data_set.u[j], transfer_system(B[j], A[j]), data_set.hold, data_set.delays[j]});
+    if (!(data_set.sampling.Ts > 0) || data_set.y.size() <= kStoredSamples) {
+        Vector error = data_set.y;
+        for (std::size_t j = 1; j < chains.size(); ++j) error -= chain_outputs(chains[j], data_set.sampling).col(0);
         return error.squaredNorm();
     }
     OutputSum error{{{0, 1}}};
     for (std::size_t j = 1; j < chains.size(); ++j) error.terms.push_back({static_cast<Index>(j), -1});
     const Index place = static_cast<Index>(chains.size());
-    return chain_products(chains, record.sampling, {place}, {place}, {error})(0, 0);
+    return chain_products(chains, data_set.sampling, {place}, {place}, {error})(0, 0);
 }
 
 }  // namespace dynlab::inline numerics

@@ -15,7 +15,7 @@ struct Sampling {
 
 /// One equation A(p) y = sum_j B_j(p) u_j(t - delay_j) of degree n over one experiment, as LSSVF, IVSVF and SRIVC solve
 /// it.
-struct RegressionRecord {
+struct RegressionData {
     SampleView y;
     std::vector<SampleView> u;
     std::vector<int> zeros;      ///< degree m_j <= n of each B_j

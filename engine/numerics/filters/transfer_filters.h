@@ -26,18 +26,18 @@ class TransferFilters {
                                       const Sampling& sampling) const = 0;
 
     /// z = phi, all signals filtered by gain/E.
-    virtual NormalEquations svf(const RegressionRecord& record, const VectorView& E, double gain) const = 0;
+    virtual NormalEquations svf(const RegressionData& data_set, const VectorView& E, double gain) const = 0;
     /// Signals filtered by gain/E. The instrument uses the auxiliary model's output sum B_j/A u_j, filtered with the
     /// same hold, instead of y.
-    virtual NormalEquations auxiliary(const RegressionRecord& record, const VectorView& E, const VectorView& A,
+    virtual NormalEquations auxiliary(const RegressionData& data_set, const VectorView& E, const VectorView& A,
                                       const std::vector<Vector>& B, double gain) const = 0;
     /// Signals filtered by 1/A, and z the sensitivities of the model's output,
     ///     z = [-p^(n-i) sum_j B_j/A^2 u_j, p^(m_j-l)/A u_j];
     /// with_gram: sum z z' in the same run.
-    virtual NormalEquations refined(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B,
+    virtual NormalEquations refined(const RegressionData& data_set, const VectorView& A, const std::vector<Vector>& B,
                                     bool with_gram) const = 0;
     /// sum (y - sum_j B_j/A_j u_j)^2, simulated from rest.
-    virtual double output_error_squares(const RegressionRecord& record, const std::vector<Vector>& A,
+    virtual double output_error_squares(const RegressionData& data_set, const std::vector<Vector>& A,
                                         const std::vector<Vector>& B) const = 0;
 };
 

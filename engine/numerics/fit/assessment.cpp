@@ -20,7 +20,7 @@ namespace dynlab::inline numerics {
 namespace {
 
 // One output of one experiment.
-struct AssessedRecord {
+struct AssessedData {
     Matrix u;
     Vector y, t;
     double Ts;
@@ -28,17 +28,17 @@ struct AssessedRecord {
 };
 
 // Response to u and its derivatives with respect to [a_1..a_n b_0..b_m delay].
-Matrix driven_sensitivities(const AssessedRecord& record, const TransferFunction& G, const VectorView& u) {
-    return record.Ts > 0 ? transfer_sensitivities(G.num(), G.den(), G.delay(), u, record.Ts, record.hold)
-                         : transfer_sensitivities(G.num(), G.den(), G.delay(), u, record.t, record.hold);
+Matrix driven_sensitivities(const AssessedData& data_set, const TransferFunction& G, const VectorView& u) {
+    return data_set.Ts > 0 ? transfer_sensitivities(G.num(), G.den(), G.delay(), u, data_set.Ts, data_set.hold)
+                           : transfer_sensitivities(G.num(), G.den(), G.delay(), u, data_set.t, data_set.hold);
 }
 
 // The same for a system at rest at the first input value before the first sample; a model with an integrator has no
 // such rest and starts from zero input.
-Matrix channel_sensitivities(const AssessedRecord& record, const TransferFunction& G, Index input, InitialState state) {
+Matrix channel_sensitivities(const AssessedData& data_set, const TransferFunction& G, Index input, InitialState state) {
     const double gain = G.dc_gain();
-    const double resting = state == InitialState::kZero || !std::isfinite(gain) ? 0 : record.u(0, input);
-    Matrix columns = driven_sensitivities(record, G, record.u.col(input).array() - resting);
+    const double resting = state == InitialState::kZero || !std::isfinite(gain) ? 0 : data_set.u(0, input);
+    Matrix columns = driven_sensitivities(data_set, G, data_set.u.col(input).array() - resting);
     if (resting == 0) return columns;
     const Index n = G.pole_count(), m = G.zero_count();
     const double a_n = G.den()[n];
@@ -49,10 +49,10 @@ Matrix channel_sensitivities(const AssessedRecord& record, const TransferFunctio
 }
 
 // The free motions of 1/A: the impulse responses of s^i/A, i = 0 .. n-1.
-Matrix free_motions(const AssessedRecord& record, const Vector& den) {
+Matrix free_motions(const AssessedData& data_set, const Vector& den) {
     const Index n = den.size() - 1;
-    const Vector since_start = record.t.array() - record.t[0];
-    Matrix motions(record.y.size(), n);
+    const Vector since_start = data_set.t.array() - data_set.t[0];
+    Matrix motions(data_set.y.size(), n);
     for (Index i = 0; i < n; ++i)
         motions.col(i) = impulse_response(TransferFunction(Vector::Unit(i + 1, 0), den), since_start).y;
     return motions;
@@ -60,10 +60,10 @@ Matrix free_motions(const AssessedRecord& record, const Vector& den) {
 
 // Derivatives with respect to a_1..a_n of the free motion P/A, P = sum weights_i s^i: the impulse responses of
 // -s^(n-i) P/A^2.
-Matrix free_sensitivities_of(const AssessedRecord& record, const Vector& den, const Vector& weights) {
+Matrix free_sensitivities_of(const AssessedData& data_set, const Vector& den, const Vector& weights) {
     const Index n = den.size() - 1;
-    const Vector since_start = record.t.array() - record.t[0], square = multiply(den, den);
-    Matrix columns(record.y.size(), n);
+    const Vector since_start = data_set.t.array() - data_set.t[0], square = multiply(den, den);
+    Matrix columns(data_set.y.size(), n);
     for (Index i = 1; i <= n; ++i) {
         const Vector num = multiply(-weights.reverse(), Vector::Unit(n - i + 1, 0));
         columns.col(i - 1) = impulse_response(TransferFunction(num, square), since_start).y;
@@ -95,14 +95,14 @@ std::vector<const ChannelPlaces*> free_systems(std::span<const ChannelPlaces> ch
     return systems;
 }
 
-Linearized linearize(const AssessedRecord& record, std::span<const ChannelPlaces> channels, const StartCondition& start,
+Linearized linearize(const AssessedData& data_set, std::span<const ChannelPlaces> channels, const StartCondition& start,
                      Index parameters) {
-    const Index N = record.y.size();
-    Linearized result{Matrix::Zero(N, parameters), record.y, 0};
+    const Index N = data_set.y.size();
+    Linearized result{Matrix::Zero(N, parameters), data_set.y, 0};
     for (std::size_t j = 0; j < channels.size(); ++j) {
         const ChannelPlaces& channel = channels[j];
         const Index n = channel.G.pole_count(), b_count = channel.G.num().size();
-        const Matrix columns = channel_sensitivities(record, channel.G, static_cast<Index>(j), start.state);
+        const Matrix columns = channel_sensitivities(data_set, channel.G, static_cast<Index>(j), start.state);
         result.errors -= columns.col(0);
         result.Psi.middleCols(channel.a, n) += columns.middleCols(1, n);
         result.Psi.middleCols(channel.b, b_count) += columns.middleCols(1 + n, b_count);
@@ -114,7 +114,7 @@ Linearized linearize(const AssessedRecord& record, std::span<const ChannelPlaces
         for (const ChannelPlaces* system : systems) {
             const Index n = system->G.pole_count();
             linear.conservativeResize(N, linear.cols() + n);
-            linear.rightCols(n) = free_motions(record, system->G.den());
+            linear.rightCols(n) = free_motions(data_set, system->G.den());
         }
     if (start.offset) {
         linear.conservativeResize(N, linear.cols() + 1);
@@ -129,7 +129,7 @@ Linearized linearize(const AssessedRecord& record, std::span<const ChannelPlaces
         for (const ChannelPlaces* system : systems) {
             const Index n = system->G.pole_count();
             result.Psi.middleCols(system->a, n) +=
-                free_sensitivities_of(record, system->G.den(), fit.solution.segment(place, n));
+                free_sensitivities_of(data_set, system->G.den(), fit.solution.segment(place, n));
             place += n;
         }
     for (Index i = 0; i < parameters; ++i) result.Psi.col(i) = solve_least_squares(linear, result.Psi.col(i)).residuals;
@@ -214,9 +214,9 @@ Assessment assess_channels(const IdData& data, const std::vector<ChannelPlaces>&
         std::vector<Vector> own_errors;
         for (std::size_t k = 0; k < data.experiments.size(); ++k) {
             const Experiment& experiment = data.experiments[k];
-            const AssessedRecord record{experiment.u, experiment.y.col(i), data.time(k), data.Ts, data.hold};
+            const AssessedData data_set{experiment.u, experiment.y.col(i), data.time(k), data.Ts, data.hold};
             const std::span<const ChannelPlaces> own(channels.data() + i * nu, static_cast<std::size_t>(nu));
-            const Linearized part = linearize(record, own, fit.start, by_parameter.rows());
+            const Linearized part = linearize(data_set, own, fit.start, by_parameter.rows());
             Psi.middleRows(first, lengths[k]) = part.Psi * by_parameter;
             errors.segment(first, lengths[k]) = part.errors;
             first += lengths[k];
@@ -286,14 +286,14 @@ Assessment assess_prediction(const IdData& data, const Fit& fit, const ResidualO
     for (Index i = 0; i < d && linear_unknowns > 0; ++i) Psi.col(i) = solve_least_squares(linear, Psi.col(i)).residuals;
     const Vector errors = model.target() - output;
     Assessment assessment;
-    std::vector<Vector> records;
+    std::vector<Vector> data_sets;
     const std::vector<Index> lengths = model.lengths();
     Index first = 0;
     for (const Index length : lengths) {
-        records.push_back(errors.segment(first, length));
+        data_sets.push_back(errors.segment(first, length));
         first += length;
     }
-    assessment.whiteness = {whiteness_test(records, options)};
+    assessment.whiteness = {whiteness_test(data_sets, options)};
     assessment.white = assessment.whiteness.front().white;
     finish(assessment, Psi, errors, lengths, 1, fit.covariance, linear_unknowns);
     assessment.verdict = verdict_of(assessment, fit, data);

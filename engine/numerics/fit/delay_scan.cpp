@@ -278,7 +278,7 @@ TransferStructure with_delays_of(const TransferStructure& structure, const Vecto
 double likely_largest_delay(const IdData& data) {
     constexpr Index kMinCount = 10;
     constexpr double kMargin = 1.5, kNearlyPeak = 0.9;
-    const double quarter = shortest_record(data) / 4;
+    const double quarter = shortest_experiment(data) / 4;
     Index lags = std::numeric_limits<Index>::max();
     for (const Experiment& experiment : data.experiments) lags = std::min(lags, experiment.y.rows() / 4);
     Index furthest = kMinCount;
@@ -319,7 +319,7 @@ bool is_as_lively(const IdData& beginning, const IdData& data) {
 /// With delays up to `likely` at first (s).
 DelayScan scan_growing_range(const IdData& data, const TransferStructure& structure, double likely,
                              const FitOptions& options) {
-    const double quarter = std::max(options.least_delay, shortest_record(data) / 4);
+    const double quarter = std::max(options.least_delay, shortest_experiment(data) / 4);
     DelayRange range{options.least_delay, std::clamp(likely, options.least_delay, quarter)};
     DelayScan scan = scan_range(data, structure, range, options);
     while (range.largest < quarter && lowest_at_the_end(scan) && !(options.cancel && options.cancel())) {
@@ -337,7 +337,7 @@ DelayScan scan_delays(const IdData& data, const TransferStructure& structure, co
     const double likely = likely_largest_delay(beginning);
     if (!data.regular() && data.sample_count() > 2 * kScannedIrregular) {
         const IdData part = beginning_of(data, kScannedIrregular);
-        if (likely <= shortest_record(part) / 4 && is_as_lively(part, beginning)) {
+        if (likely <= shortest_experiment(part) / 4 && is_as_lively(part, beginning)) {
             DelayScan scan = scan_growing_range(part, structure, likely, options);
             if (!lowest_at_the_end(scan)) return scan;
         }

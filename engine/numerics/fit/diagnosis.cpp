@@ -116,14 +116,14 @@ void check_transient(const std::string& method, const IdData& data, const Fit& f
                                output_powers(data).mean(), N, values, experiments});
 }
 
-double shortest_record(const IdData& data) {
+double shortest_experiment(const IdData& data) {
     double shortest = std::numeric_limits<double>::infinity();
     for (std::size_t e = 0; e < data.experiments.size(); ++e) shortest = std::min(shortest, data.duration(e));
     return shortest;
 }
 
 DelayRange delay_range(const IdData& data, const FitOptions& options) {
-    const double shortest = shortest_record(data);
+    const double shortest = shortest_experiment(data);
     const double largest = options.largest_delay.value_or(std::max(options.least_delay, shortest / 4));
     if (largest >= shortest)
         throw InvalidArgument("{} must be shorter than the data, which last {} s, but is {} s",

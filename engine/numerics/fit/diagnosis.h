@@ -27,7 +27,7 @@ void check_sample_count(const std::string& method, Index samples, Index values);
 /// require_transient in criteria/initial_conditions.h). A canceled fit passes.
 void check_transient(const std::string& method, const IdData& data, const Fit& fit, Index values);
 
-double shortest_record(const IdData& data);  ///< s, of all experiments
+double shortest_experiment(const IdData& data);  ///< s, of all experiments
 
 struct DelayRange {
     double least = 0, largest = 0;  ///< s

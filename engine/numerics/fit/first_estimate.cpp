@@ -20,7 +20,7 @@ constexpr double kFarOff = 3;            // times the smallest loss found: such 
 constexpr Index kTrialSamples = 50'000;  // for longer data the start is found on their beginning
 constexpr double kTrialTolerance = 1e-4;
 
-double longest_record(const IdData& data) {
+double longest_experiment(const IdData& data) {
     double longest = 0;
     for (std::size_t e = 0; e < data.experiments.size(); ++e) longest = std::max(longest, data.duration(e));
     return longest;
@@ -127,7 +127,7 @@ Vector lssvf_start(const IdData& data, const TransferStructure& structure, doubl
 Vector best_cutoff_start(const IdData& data, const TransferStructure& structure, const FitOptions& options,
                          CutoffTrials trials) {
     const double Ts = data.mean_step();
-    const double slowest = 4 / (longest_record(data) + Ts), fastest = 0.6 * std::numbers::pi / Ts;
+    const double slowest = 4 / (longest_experiment(data) + Ts), fastest = 0.6 * std::numbers::pi / Ts;
     const double ratio = std::pow(fastest / slowest, 1.0 / (kCutoffs - 1));
     std::vector<CutoffStart> starts;
     double lambda = slowest;
@@ -170,9 +170,9 @@ Vector first_estimate(const IdData& data, const TransferStructure& structure, co
 
 Vector start_from_rest(const IdData& data, const TransferStructure& structure, const FitOptions& options,
                        CutoffTrials trials) {
-    const auto start_of = [&](const IdData& record) {
-        const Vector theta = first_estimate(record, structure, options, trials);
-        return theta.allFinite() ? theta : best_cutoff_start(record, structure, options, trials);
+    const auto start_of = [&](const IdData& data_set) {
+        const Vector theta = first_estimate(data_set, structure, options, trials);
+        return theta.allFinite() ? theta : best_cutoff_start(data_set, structure, options, trials);
     };
     if (data.sample_count() <= 2 * kTrialSamples) return start_of(data);
     const IdData beginning = beginning_of(data, kTrialSamples);

@@ -216,7 +216,7 @@ NestedSolution with_linear_part(const IdData& data, const TransferStructure& str
                                 const VectorView& A, double delay) {
     TransferStructure at = with_fixed_delays(structure);
     at.channels.front().delay = delay;
-    const TransferOutput model(at, condition, data, 0, shortest_record(data));
+    const TransferOutput model(at, condition, data, 0, shortest_experiment(data));
     const Index n = A.size() - 1, rest = model.parameter_count() - n;
     Vector point = Vector::Zero(model.parameter_count()), output;
     point.head(n) = A.tail(n).cwiseQuotient(model.seconds().head(n));

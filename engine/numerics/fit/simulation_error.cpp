@@ -22,7 +22,8 @@ constexpr double kSingular = 1e-6;      // of the input's power
 
 /// The errors of a fit, experiment by experiment.
 struct FitErrors {
-    FitErrors(const IdData& data, const Fit& fit) : model(fit.structure, fit.start, data, 0, shortest_record(data)) {
+    FitErrors(const IdData& data, const Fit& fit)
+        : model(fit.structure, fit.start, data, 0, shortest_experiment(data)) {
         all = model.target() - model.output_at(search_point(fit, model, model.seconds()));
     }
 

@@ -60,7 +60,7 @@ class Groups {
 
   private:
     void set_targets(std::size_t g, const Vector& theta) {
-        std::size_t record = 0;
+        std::size_t data_set = 0;
         for (const Index output : groups_[g].outputs())
             for (const Experiment& experiment : data_.experiments) {
                 Vector rest = experiment.y.col(output);
@@ -70,7 +70,7 @@ class Groups {
                                                structure_.denominator(theta, output, input),
                                                structure_.channel(output, input).delay, input);
                 }
-                groups_[g].set_target(record++, rest);
+                groups_[g].set_target(data_set++, rest);
             }
     }
 

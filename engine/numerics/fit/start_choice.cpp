@@ -159,9 +159,9 @@ void set_errors(LinearModel& linear, const OutputErrorModel& model, const Vector
 bool output_promises(const IdData& data, const TransferStructure& structure, const Vector& theta,
                      const FitOptions& options) {
     const IdData part = data.sample_count() > kLookAheadSamples ? beginning_of(data, kLookAheadSamples) : IdData();
-    const IdData& record = data.sample_count() > kLookAheadSamples ? part : data;
+    const IdData& data_set = data.sample_count() > kLookAheadSamples ? part : data;
     // Nothing rests at the first input here, so that the free motions are added to a start from rest.
-    const TransferOutput model(structure, {InitialState::kEstimate, true}, record, 0, shortest_record(record),
+    const TransferOutput model(structure, {InitialState::kEstimate, true}, data_set, 0, shortest_experiment(data_set),
                                TransferOutput::AtRest::kNothing);
     const Index own = structure.parameter_count();
     Vector point = Vector::Zero(model.parameter_count());
@@ -185,7 +185,7 @@ bool is_from_rest(const Fit& fit) {
 /// The errors of a fit without those of the first seconds, which do not count.
 struct CountedErrors {
     CountedErrors(const IdData& data, const Fit& fit, double masked_seconds)
-        : model(fit.structure, fit.start, data, 0, shortest_record(data)) {
+        : model(fit.structure, fit.start, data, 0, shortest_experiment(data)) {
         model.mask_start(masked_seconds);
         errors = model.target() - model.output_at(search_point(fit, model, model.seconds()));
     }
@@ -274,8 +274,8 @@ Fit best_predicting_start(Fit fit, const FitOptions& options, const std::functio
 bool other_discrete_start_promises(const IdData& data, const Fit& from_rest, const FitOptions& options) {
     if (!(from_rest.fit_percent[0] > kLostFit)) return true;
     const IdData part = data.sample_count() > kLookAheadSamples ? beginning_of(data, kLookAheadSamples) : IdData();
-    const IdData& record = data.sample_count() > kLookAheadSamples ? part : data;
-    const std::vector<SampledExperiment> experiments = sampled_experiments(record);
+    const IdData& data_set = data.sample_count() > kLookAheadSamples ? part : data;
+    const std::vector<SampledExperiment> experiments = sampled_experiments(data_set);
     const DiscreteOutput model(*from_rest.orders, {InitialState::kEstimate, true}, experiments);
     const Index own = from_rest.theta.size();
     if (model.target().size() <= 2 * model.parameter_count()) return true;

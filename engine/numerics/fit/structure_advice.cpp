@@ -86,12 +86,12 @@ class LookAhead {
   public:
     LookAhead(const IdData& data, const Fit& fit) {
         const IdData part = data.sample_count() > kLookedAt ? beginning_of(data, kLookedAt) : IdData();
-        const IdData& record = data.sample_count() > kLookedAt ? part : data;
-        whole_ = static_cast<double>(data.sample_count()) / static_cast<double>(record.sample_count());
+        const IdData& data_set = data.sample_count() > kLookedAt ? part : data;
+        whole_ = static_cast<double>(data.sample_count()) / static_cast<double>(data_set.sample_count());
         samples_ = static_cast<double>(data.sample_count());
-        variation_ = output_variations(record)[0];
+        variation_ = output_variations(data_set)[0];
         const TransferStructure direct = with_direct_terms(fit.structure);
-        const TransferOutput model(direct, fit.start, record, 0, shortest_record(record));
+        const TransferOutput model(direct, fit.start, data_set, 0, shortest_experiment(data_set));
         const Index own = direct.parameter_count();
         Fit extended = fit;
         extended.structure = direct;
@@ -164,8 +164,8 @@ double correlation_of_neighbors(const Vector& errors, const TransferOutput& mode
 }
 
 /// Without the first seconds, which do not count.
-Explanation explanation_of(const IdData& record, const Fit& fit, double masked_seconds) {
-    TransferOutput model(fit.structure, fit.start, record, 0, shortest_record(record));
+Explanation explanation_of(const IdData& data_set, const Fit& fit, double masked_seconds) {
+    TransferOutput model(fit.structure, fit.start, data_set, 0, shortest_experiment(data_set));
     model.mask_start(masked_seconds);
     const Vector errors = model.target() - model.output_at(search_point(fit, model, model.seconds()));
     const bool finite = errors.allFinite();
@@ -176,11 +176,13 @@ Explanation explanation_of(const IdData& record, const Fit& fit, double masked_s
 
 /// One output, its fit, and how others are found.
 struct Question {
-    const IdData& record;
+    const IdData& data_set;
     const Fit& given;
     const FitOptions& options;
 
-    Explanation explanation(const Fit& fit) const { return explanation_of(record, fit, masked_start(given, record)); }
+    Explanation explanation(const Fit& fit) const {
+        return explanation_of(data_set, fit, masked_start(given, data_set));
+    }
 
     /// The search that a user's structure leads to; nothing where the data do not allow it.
     std::optional<Fit> fit_of(const TransferStructure& structure) const {
@@ -190,7 +192,7 @@ struct Question {
         how.fixed.clear();
         how.output_weights.resize(0);
         try {
-            Fit fit = search_with_chosen_start("missed_structure", record, structure, how);
+            Fit fit = search_with_chosen_start("missed_structure", data_set, structure, how);
             if (fit.termination != Termination::kCanceled) return fit;
         } catch (const InvalidArgument&) {
             return std::nullopt;
@@ -209,14 +211,14 @@ bool is_direct(const Question& asked, const Explanation& direct) {
     if (!pole || is_worth_reporting(asked.explanation(*pole).fit(), direct.fit())) return true;
     double fastest = 0;
     for (const TransferFunction& G : pole->models) fastest = std::max(fastest, G.poles().cwiseAbs().maxCoeff());
-    return fastest * asked.record.mean_step() > kFastestPole;
+    return fastest * asked.data_set.mean_step() > kFastestPole;
 }
 
 /// What the structure explains when an input that moves at nearly every sample is not held between them; nothing where
 /// a direct term does better.
 std::optional<Explanation> without_hold(const Question& asked, const Explanation& direct) {
-    if (!moves_between_samples(asked.record)) return std::nullopt;
-    IdData lines = asked.record;
+    if (!moves_between_samples(asked.data_set)) return std::nullopt;
+    IdData lines = asked.data_set;
     lines.hold = Hold::kFoh;
     const Question other{lines, asked.given, asked.options};
     const std::optional<Fit> fit = other.fit_of(asked.given.structure);
@@ -230,7 +232,7 @@ using Candidate = std::pair<StructureAdviceCode, TransferStructure>;  ///< a str
 std::vector<Candidate> candidates(const IdData& data, const Question& asked) {
     const TransferStructure& structure = asked.given.structure;
     std::vector<Candidate> all;
-    if (structure.single_channel() && errors_follow_input(asked.record, asked.given)) {
+    if (structure.single_channel() && errors_follow_input(asked.data_set, asked.given)) {
         if (!structure.free_delays) {
             all.push_back({StructureAdviceCode::kDelay, structure});
             all.back().second.free_delays = true;
@@ -245,13 +247,13 @@ std::vector<Candidate> candidates(const IdData& data, const Question& asked) {
 /// Whether a straight line may be missed: the errors wander (those of the first experiment), or a slow or unstable pole
 /// has taken it over.
 bool may_miss_line(const Question& asked) {
-    const double duration = shortest_record(asked.record);
+    const double duration = shortest_experiment(asked.data_set);
     constexpr double kSlowTurns = 3;
     for (const TransferFunction& G : asked.given.models)
         for (const Complex& pole : G.poles())
             if (has_unstable_pole(G) || std::abs(pole) * duration < kSlowTurns) return true;
-    const TransferOutput model(asked.given.structure, asked.given.start, asked.record, 0,
-                               shortest_record(asked.record));
+    const TransferOutput model(asked.given.structure, asked.given.start, asked.data_set, 0,
+                               shortest_experiment(asked.data_set));
     const Vector errors = model.target() - model.output_at(search_point(asked.given, model, model.seconds()));
     return !errors.allFinite() || wanders(errors.head(model.rows(0)));
 }
@@ -273,18 +275,18 @@ std::optional<StructureAdvice> gain_on(const IdData& data, const Question& asked
 /// Whether the same structure fits better after linear detrending of input and output.
 std::optional<StructureAdvice> missed_line(const Question& asked, const Explanation& present) {
     if (!may_miss_line(asked)) return std::nullopt;
-    return gain_on(detrend(asked.record, TrendKind::kLinear), asked, present, StructureAdviceCode::kLine, "detrend",
-                   2 * static_cast<Index>(asked.record.experiments.size()));
+    return gain_on(detrend(asked.data_set, TrendKind::kLinear), asked, present, StructureAdviceCode::kLine, "detrend",
+                   2 * static_cast<Index>(asked.data_set.experiments.size()));
 }
 
 /// Whether it does better with the input one sample earlier.
 std::optional<StructureAdvice> missed_shift(const Question& asked, const Explanation& present) {
-    const auto& [record, given, options] = asked;
+    const auto& [data_set, given, options] = asked;
     if (!given.structure.single_channel() || options.integration || given.models.front().delay() > 0) return {};
     const int poles = given.structure.poles.front();
-    if (!errors_follow_input(record, given)) return {};
-    const auto found = gain_on(record.shifted(-1), asked, present, StructureAdviceCode::kLate, "shift", 0);
-    return found && late_input(record, poles, given.loss) ? found : std::nullopt;  // the quick question first
+    if (!errors_follow_input(data_set, given)) return {};
+    const auto found = gain_on(data_set.shifted(-1), asked, present, StructureAdviceCode::kLate, "shift", 0);
+    return found && late_input(data_set, poles, given.loss) ? found : std::nullopt;  // the quick question first
 }
 
 double value_of(StructureAdviceCode code, const Fit& fit) {
@@ -300,13 +302,13 @@ const char* option_of(StructureAdviceCode code) {
 std::optional<StructureAdvice> missed_by_output(const IdData& data, const Fit& given, const FitOptions& options) {
     const bool shorter = data.sample_count() > kFitted;
     const IdData beginning = shorter ? beginning_of(data, kFitted) : IdData();
-    const IdData& record = shorter ? beginning : data;
-    const Question asked{record, given, options};
+    const IdData& data_set = shorter ? beginning : data;
+    const Question asked{data_set, given, options};
     const Explanation present = asked.explanation(given);
     std::optional<StructureAdvice> best = missed_line(asked, present);
     if (!best) best = missed_shift(asked, present);
     if (best) {
-        best->samples = shorter ? record.sample_count() : 0;
+        best->samples = shorter ? data_set.sample_count() : 0;
         return best;
     }
     double most = 0;
@@ -324,7 +326,7 @@ std::optional<StructureAdvice> missed_by_output(const IdData& data, const Fit& g
         best = StructureAdvice{.code = moves ? StructureAdviceCode::kHold : code,
                                .option = moves ? "hold" : option_of(code),
                                .value = value_of(code, *fit),
-                               .samples = shorter ? record.sample_count() : 0,
+                               .samples = shorter ? data_set.sample_count() : 0,
                                .fit_percent = present.fit(),
                                .better_fit_percent = moves ? moving->fit() : found.fit()};
     }

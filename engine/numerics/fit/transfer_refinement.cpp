@@ -341,7 +341,7 @@ Fit refine_each_output(const IdData& data, const TransferStructure& structure, c
 
 double masked_start(const StartCondition& start, double delay, const IdData& data) {
     const bool unknown = start.state == InitialState::kEstimate && delay > 0;
-    return unknown && delay < shortest_record(data) / 2 ? delay + data.mean_step() : 0;
+    return unknown && delay < shortest_experiment(data) / 2 ? delay + data.mean_step() : 0;
 }
 
 double masked_start(const Fit& fit, const IdData& data) {

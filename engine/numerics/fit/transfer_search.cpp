@@ -78,40 +78,40 @@ Fit refine_from(const IdData& data, const TransferStructure& structure, const St
 /// One search under a start condition, and what it begins with.
 class NestedFits {
   public:
-    NestedFits(const IdData& record, const IdData& for_start, const StartCondition& condition,
+    NestedFits(const IdData& data_set, const IdData& for_start, const StartCondition& condition,
                const FitOptions& options)
-        : record_(record), for_start_(for_start), condition_(condition), options_(options) {}
+        : data_set_(data_set), for_start_(for_start), condition_(condition), options_(options) {}
 
     /// The best of the refinements from these starts and, where an initial state is estimated, from the solution of the
     /// zero state.
     Fit best(const TransferStructure& structure, std::vector<Vector> starts) const {
         if (condition_.state == InitialState::kEstimate)
             starts.push_back(
-                refine_from(record_, structure, {InitialState::kZero, condition_.offset}, starts, rough(options_))
+                refine_from(data_set_, structure, {InitialState::kZero, condition_.offset}, starts, rough(options_))
                     .theta);
-        return refine_from(record_, structure, condition_, starts, options_);
+        return refine_from(data_set_, structure, condition_, starts, options_);
     }
 
     /// The fit, or a better one from solutions of poorer structures that have a smaller loss: those `known`, or all
     /// that the same search finds.
     Fit no_worse(const TransferStructure& structure, Fit best, const std::vector<const Fit*>& known) const {
-        if (structure.outputs > 1 || record_.sample_count() > kNestedSamples || !options_.fixed.empty() ||
+        if (structure.outputs > 1 || data_set_.sample_count() > kNestedSamples || !options_.fixed.empty() ||
             best.termination == Termination::kCanceled)
             return best;
         std::vector<Vector> starts;
         if (known.empty()) {
             const TransferStructure at = with_delays_of(structure, best.theta);
             const double requested = best.loss;
-            NestedSearch nested(record_, [&](const TransferStructure& lower_order, const std::vector<Vector>& own) {
+            NestedSearch nested(data_set_, [&](const TransferStructure& lower_order, const std::vector<Vector>& own) {
                 return solution_of(lower_order, own, requested);
             });
             for (const Vector& start : nested.better_starts(at, best.loss))
                 starts.push_back(structure.free_delays ? with_delays(structure, at, start) : start);
         } else {
-            starts = starts_from_lower_order(record_, known, structure, best.loss);
+            starts = starts_from_lower_order(data_set_, known, structure, best.loss);
         }
         if (starts.empty()) return best;
-        Fit other = refine_from(record_, structure, condition_, starts, options_);
+        Fit other = refine_from(data_set_, structure, condition_, starts, options_);
         return other.loss < best.loss ? other : best;
     }
 
@@ -123,13 +123,13 @@ class NestedFits {
             return solution(structure, followed(structure, std::move(fit), requested));
         };
         try {
-            if (!starts.empty()) return settled(refine_from(record_, structure, condition_, starts, options_));
+            if (!starts.empty()) return settled(refine_from(data_set_, structure, condition_, starts, options_));
             // The solution of a separate call, and the one from the passes: a joint search would follow the nearer
             // optimum and miss the better one.
             const Vector start = start_from_rest(for_start_, structure, options_);
             const NestedSolution own = settled(best(structure, {start}));
             const Vector passed = iterate_srivc(for_start_, structure, start, options_).theta;
-            const NestedSolution other = settled(refine_from(record_, structure, condition_, {passed}, options_));
+            const NestedSolution other = settled(refine_from(data_set_, structure, condition_, {passed}, options_));
             return other.loss < own.loss ? other : own;
         } catch (const InvalidArgument&) {
             return {};  // no start for this structure: the richer one has its own
@@ -145,7 +145,7 @@ class NestedFits {
         for (int left = kLastIterations; options_.extend_iterations && left > 0; left -= kStretch) {
             if (fit.termination != Termination::kIterationLimit) break;
             const double before = fit.loss;
-            fit = refine_output_error(record_, structure, fit.start, fit.theta,
+            fit = refine_output_error(data_set_, structure, fit.start, fit.theta,
                                       options_.limited(kStretch, options_.tolerance));
             const double gained_at_this_pace = (before - fit.loss) * left / kStretch;
             if (fit.loss - gained_at_this_pace > requested) break;
@@ -153,7 +153,7 @@ class NestedFits {
         return fit;
     }
 
-    const IdData &record_, &for_start_;
+    const IdData &data_set_, &for_start_;
     const StartCondition& condition_;
     const FitOptions& options_;
 };
@@ -187,36 +187,36 @@ IdData levelled_for_start(const IdData& data) {
 
 /// With an estimated start: inputs from before the first sample reach the output during the delays, so that this
 /// beginning is left out and the search continues from its last point.
-Fit without_masked_inputs(const IdData& record, const TransferStructure& structure, Fit fit,
+Fit without_masked_inputs(const IdData& data_set, const TransferStructure& structure, Fit fit,
                           const FitOptions& options) {
     constexpr int kRounds = 3;
     double left_out = 0;
     for (int round = 0; round < kRounds && fit.termination != Termination::kCanceled; ++round) {
-        const double masked_seconds = masked_start(fit, record);
-        if (masked_seconds <= left_out + record.mean_step()) break;
+        const double masked_seconds = masked_start(fit, data_set);
+        if (masked_seconds <= left_out + data_set.mean_step()) break;
         left_out = masked_seconds;
-        fit = continued(fit, refine_output_error(record, structure, fit.start, fit.theta, options, left_out));
+        fit = continued(fit, refine_output_error(data_set, structure, fit.start, fit.theta, options, left_out));
     }
     return fit;
 }
 
 /// A search that has not settled goes on.
-Fit settled(const IdData& record, const TransferStructure& structure, Fit fit, const FitOptions& options) {
+Fit settled(const IdData& data_set, const TransferStructure& structure, Fit fit, const FitOptions& options) {
     if (!options.extend_iterations || fit.termination != Termination::kIterationLimit) return fit;
-    return continued(fit, refine_output_error(record, structure, fit.start, fit.theta,
+    return continued(fit, refine_output_error(data_set, structure, fit.start, fit.theta,
                                               options.limited(kLastIterations, options.tolerance)));
 }
 
 /// Finds another valley of the delay, far from the estimate, whose loss differs from the smallest only by chance. The
 /// parameters that differ between the two are then not determined, and standard errors about one of them mean nothing.
-void withdraw_errors_of_rivals(Fit& fit, const IdData& record, const DelayScan& scan) {
+void withdraw_errors_of_rivals(Fit& fit, const IdData& data_set, const DelayScan& scan) {
     constexpr Index kCurveSamples = 50'000;  // at most
     constexpr double kRivalChance = 6.635;   // 99 % quantile of chi-square with one degree of freedom
     constexpr double kRivalSteps = 2, kRivalErrors = 3, kSameScale = 1.05, kDiffers = 2;
     const Vector& losses = scan.losses;
     if (!fit.structure.single_channel() || losses.size() < 3 || losses.minCoeff() > kSameScale * fit.loss) return;
     const Index place = fit.structure.delay_index(0, 0);
-    const Index scanned = std::min(record.sample_count(), kCurveSamples);
+    const Index scanned = std::min(data_set.sample_count(), kCurveSamples);
     const double limit = losses.minCoeff() * std::exp(kRivalChance / static_cast<double>(scanned));
     const double far = std::max(kRivalSteps * (scan.delays[1] - scan.delays[0]), kRivalErrors * fit.std[place]);
     for (Index i = 1; i + 1 < losses.size(); ++i) {
@@ -239,7 +239,7 @@ void withdraw_errors_of_rivals(Fit& fit, const IdData& record, const DelayScan& 
 
 /// The fit, or a better one if its errors show missing dynamics: from models with other poles, and, if the errors
 /// change quickly, from those of difference equations.
-Fit or_from_further_starts(const IdData& record, const TransferStructure& structure, Fit best,
+Fit or_from_further_starts(const IdData& data_set, const TransferStructure& structure, Fit best,
                            const FitOptions& options) {
     const bool suits = structure.inputs == 1 && structure.outputs == 1 && options.fixed.empty() &&
                        best.termination != Termination::kCanceled;
@@ -247,15 +247,15 @@ Fit or_from_further_starts(const IdData& record, const TransferStructure& struct
     // One after the other: those that are slow to show what they lead to would be dropped beside the others.
     const auto refined = [&](const std::vector<Vector>& starts) {
         if (starts.empty()) return;
-        best = settled(record, structure, std::move(best), options);
-        Fit other = refine_from(record, structure, best.start, starts, options);
+        best = settled(data_set, structure, std::move(best), options);
+        Fit other = refine_from(data_set, structure, best.start, starts, options);
         if (other.loss < best.loss) best = std::move(other);
     };
-    if (record.regular() && fast_errors_follow_input(record, best))
-        refined(sampled_starts(record, structure, best, options));
-    if (record.sample_count() <= kNestedSamples &&
-        (errors_are_colored(record, best) || errors_follow_input(record, best)))
-        refined(exchanged_poles(record, structure, best, options));
+    if (data_set.regular() && fast_errors_follow_input(data_set, best))
+        refined(sampled_starts(data_set, structure, best, options));
+    if (data_set.sample_count() <= kNestedSamples &&
+        (errors_are_colored(data_set, best) || errors_follow_input(data_set, best)))
+        refined(exchanged_poles(data_set, structure, best, options));
     return best;
 }
 
@@ -269,7 +269,7 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
     const bool center = options.offset != Offset::kNone || options.initial_state != InitialState::kZero;
     const bool remove = options.offset == Offset::kRemove;
     const CenteredData centered = remove ? without_operating_points(data) : CenteredData{};
-    const IdData& record = remove ? centered.data : data;
+    const IdData& data_set = remove ? centered.data : data;
     const IdData levelled = center ? levelled_for_start(data) : IdData();
     const IdData& for_start = center ? levelled : data;
 
@@ -290,34 +290,34 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
         const std::vector<double> least(structure.channels.size(), options.least_delay);
         starts.push_back(start_at_delays(for_start, structure, least, options));
     }
-    const auto experiments = static_cast<Index>(record.experiments.size());
+    const auto experiments = static_cast<Index>(data_set.experiments.size());
     Fit best = fit_output_error(
-        {method, record, start_conditions(record, options.initial_state, options.offset),
+        {method, data_set, start_conditions(data_set, options.initial_state, options.offset),
          [&](const StartCondition& condition) { return value_count(structure, condition, experiments); },
          [&](const StartCondition& condition) {
-             return NestedFits(record, for_start, condition, options).best(structure, starts);
+             return NestedFits(data_set, for_start, condition, options).best(structure, starts);
          }});
     const StartCondition chosen = best.start;
     const auto search = [&](const FitOptions& how, Fit found) {
-        const NestedFits fits(record, for_start, chosen, how);
+        const NestedFits fits(data_set, for_start, chosen, how);
         if (found.theta.size() == 0) found = fits.best(structure, starts);
         return fits.no_worse(structure, std::move(found), aids.lower_order);
     };
     best = search(options, std::move(best));
     const auto further = [&](const FitOptions& how, Fit found) {
-        return aids.start.size() > 0 ? found : or_from_further_starts(record, structure, std::move(found), how);
+        return aids.start.size() > 0 ? found : or_from_further_starts(data_set, structure, std::move(found), how);
     };
     // Where errors still follow the input, a free delay may have led away from the best model without one.
     const auto or_without_delay = [&](Fit found) {
         if (!structure.free_delays || !structure.single_channel() || aids.start.size() > 0 || !given.fixed.empty() ||
-            found.termination == Termination::kCanceled || !errors_follow_input(record, found))
+            found.termination == Termination::kCanceled || !errors_follow_input(data_set, found))
             return found;
         TransferStructure at = with_fixed_delays(structure);
         at.channels.front().delay = options.least_delay;
         FitOptions how = options.started(chosen);
         how.precision = false;
-        const Fit fixed = search_transfer(method, record, at, how);
-        Fit other = refine_from(record, structure, chosen, {with_delays(structure, at, fixed.theta)}, options);
+        const Fit fixed = search_transfer(method, data_set, at, how);
+        Fit other = refine_from(data_set, structure, chosen, {with_delays(structure, at, fixed.theta)}, options);
         return other.loss < found.loss ? other : found;
     };
     const Vector first_end = best.theta;
@@ -336,11 +336,11 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
             best = std::move(other);
         }
     }
-    best = settled(record, structure, std::move(best), options);
-    best = without_masked_inputs(record, structure, std::move(best), options);
+    best = settled(data_set, structure, std::move(best), options);
+    best = without_masked_inputs(data_set, structure, std::move(best), options);
     best.message = output_error_message(best);
     if (remove) add_operating_points(best, centered.removed);
-    withdraw_errors_of_rivals(best, record, scan);
+    withdraw_errors_of_rivals(best, data_set, scan);
     best.delay_grid = scan.delays;
     best.delay_loss = scan.losses;
     return best;

@@ -23,8 +23,8 @@ void CraneRun::validate(const CraneParameters& parameters) const {
                               parameters.rail, parameters.rail);
 }
 
-CraneRecord control_crane(const CraneParameters& parameters, const CraneExperiments& plan, const CraneRun& run,
-                          const CraneController& controller, std::uint32_t seed) {
+CraneData control_crane(const CraneParameters& parameters, const CraneExperiments& plan, const CraneRun& run,
+                        const CraneController& controller, std::uint32_t seed) {
     plan.validate();
     run.validate(parameters);
     CraneState start;
@@ -33,17 +33,17 @@ CraneRecord control_crane(const CraneParameters& parameters, const CraneExperime
     CraneSimulator crane(parameters, start);
     RandomStream random(seed);
     const Vector t = sampling_instants(run.duration, plan.Ts);
-    CraneRecord record{"control", t, Vector(t.size()), Vector(t.size()), Vector(t.size())};
+    CraneData data_set{"control", t, Vector(t.size()), Vector(t.size()), Vector(t.size())};
     for (Index k = 0; k < t.size(); ++k) {
         const CraneState state = crane.state();
-        record.x[k] = reading(state.position, 0, plan.position_resolution, random);
-        record.theta[k] = reading(state.angle, plan.angle_noise_std, plan.angle_resolution, random);
-        record.u[k] = controller(t[k], record.x[k], record.theta[k]);
-        if (!std::isfinite(record.u[k]))
+        data_set.x[k] = reading(state.position, 0, plan.position_resolution, random);
+        data_set.theta[k] = reading(state.angle, plan.angle_noise_std, plan.angle_resolution, random);
+        data_set.u[k] = controller(t[k], data_set.x[k], data_set.theta[k]);
+        if (!std::isfinite(data_set.u[k]))
             throw InvalidArgument("the controller returned a voltage that is not finite at t = {} s", t[k]);
-        crane.advance(record.u[k], plan.Ts);
+        crane.advance(data_set.u[k], plan.Ts);
     }
-    return record;
+    return data_set;
 }
 
 }  // namespace dynlab::inline numerics

@@ -22,7 +22,7 @@ struct CraneRun {
 /// The nonlinear crane in closed loop, with the sensors and the sampling time of `plan`. The data contain the commanded
 /// voltage, and the angle that the controller received. Throws InvalidArgument if the controller returns a voltage that
 /// is not finite.
-CraneRecord control_crane(const CraneParameters& parameters, const CraneExperiments& plan, const CraneRun& run,
-                          const CraneController& controller, std::uint32_t seed);
+CraneData control_crane(const CraneParameters& parameters, const CraneExperiments& plan, const CraneRun& run,
+                        const CraneController& controller, std::uint32_t seed);
 
 }  // namespace dynlab::inline numerics

@@ -49,7 +49,7 @@ class Experimenter {
     /// A planned experiment, with the random numbers for the noise of its sensors; only the response is not yet
     /// computed.
     struct Plan {
-        CraneRecord record;
+        CraneData data_set;
         CraneState start;
         Vector position_normals, angle_normals;
     };
@@ -59,26 +59,27 @@ class Experimenter {
         start.motor_position = start.position = start_position;
         start.angle = start_angle;
         const Index N = u.size();
-        CraneRecord record{std::move(name), Vector::LinSpaced(N, 0, static_cast<double>(N - 1)) * plan_.Ts, u,
+        CraneData data_set{std::move(name), Vector::LinSpaced(N, 0, static_cast<double>(N - 1)) * plan_.Ts, u,
                            Vector(N), Vector(N)};
         const Vector position_normals = random_.normal(N);
-        return {std::move(record), start, position_normals, random_.normal(N)};
+        return {std::move(data_set), start, position_normals, random_.normal(N)};
     }
 
-    CraneRecord run(Plan requested) const {
+    CraneData run(Plan requested) const {
         CraneSimulator crane(crane_, requested.start);
-        CraneRecord& record = requested.record;
-        for (Index k = 0; k < record.u.size(); ++k) {
-            record.x[k] = crane.state().position;
-            record.theta[k] = crane.state().angle + plan_.angle_offset;
-            crane.advance(record.u[k], plan_.Ts);
+        CraneData& data_set = requested.data_set;
+        for (Index k = 0; k < data_set.u.size(); ++k) {
+            data_set.x[k] = crane.state().position;
+            data_set.theta[k] = crane.state().angle + plan_.angle_offset;
+            crane.advance(data_set.u[k], plan_.Ts);
         }
-        record.x = measure(record.x, 0, plan_.position_resolution, requested.position_normals);
-        record.theta = measure(record.theta, plan_.angle_noise_std, plan_.angle_resolution, requested.angle_normals);
-        return std::move(record);
+        data_set.x = measure(data_set.x, 0, plan_.position_resolution, requested.position_normals);
+        data_set.theta =
+            measure(data_set.theta, plan_.angle_noise_std, plan_.angle_resolution, requested.angle_normals);
+        return std::move(data_set);
     }
 
-    Plan random_record(std::string name) {
+    Plan random_experiment(std::string name) {
         const Vector u = joined({quiet(), prbs()});
         return plan(std::move(name), u, centered_start(u));
     }
@@ -116,21 +117,21 @@ void CraneExperiments::validate() const {
                          "angle offset", std::abs(angle_offset));
 }
 
-std::vector<CraneRecord> simulate_crane(const CraneParameters& parameters, const CraneExperiments& experiments,
-                                        std::uint32_t seed) {
+std::vector<CraneData> simulate_crane(const CraneParameters& parameters, const CraneExperiments& experiments,
+                                      std::uint32_t seed) {
     experiments.validate();
     Experimenter experimenter(parameters, experiments, seed);
     // All random numbers are drawn in the order of the experiments; after that each experiment can be simulated
     // separately.
     std::vector<Experimenter::Plan> plans;
-    plans.push_back(experimenter.random_record("estimation"));
-    plans.push_back(experimenter.random_record("validation"));
+    plans.push_back(experimenter.random_experiment("estimation"));
+    plans.push_back(experimenter.random_experiment("validation"));
     plans.push_back(experimenter.steps());
     plans.push_back(experimenter.plan("free_swing", experimenter.held(0, 20), 0, experiments.release_angle));
     plans.push_back(experimenter.limits());
-    std::vector<CraneRecord> records(plans.size());
-    side_by_side(plans.size(), [&](std::size_t i) { records[i] = experimenter.run(std::move(plans[i])); });
-    return records;
+    std::vector<CraneData> data_sets(plans.size());
+    side_by_side(plans.size(), [&](std::size_t i) { data_sets[i] = experimenter.run(std::move(plans[i])); });
+    return data_sets;
 }
 
 }  // namespace dynlab::inline numerics

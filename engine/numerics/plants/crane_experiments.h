@@ -26,7 +26,7 @@ struct CraneExperiments {
 };
 
 /// Instants (s), commanded voltage (V), measured position (m) and angle (rad), N values each.
-struct CraneRecord {
+struct CraneData {
     std::string name;
     Vector t, u, x, theta;
 };
@@ -37,7 +37,7 @@ struct CraneRecord {
 ///   free_swing              motor at 0 V, pendulum let go at release_angle;
 ///   limits                  PRBS, then +-12 V by hand: beyond the amplifier's limit and into both buffers, then PRBS.
 /// Equal seeds give equal data.
-std::vector<CraneRecord> simulate_crane(const CraneParameters& parameters, const CraneExperiments& experiments,
-                                        std::uint32_t seed);
+std::vector<CraneData> simulate_crane(const CraneParameters& parameters, const CraneExperiments& experiments,
+                                      std::uint32_t seed);
 
 }  // namespace dynlab::inline numerics

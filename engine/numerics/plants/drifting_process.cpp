@@ -80,11 +80,11 @@ PlantData simulate_drifting_process(const DriftingProcessParameters& parameters,
                                     std::uint32_t seed) {
     plan.validate();
     RandomStream random(seed);
-    PlantData record;
-    record.u = seeded_prbs(plan.prbs_stages, plan.prbs_hold, plan.low, plan.high, random);
-    record.t = Vector::LinSpaced(record.u.size(), 0, static_cast<double>(record.u.size() - 1)) * plan.Ts;
-    record.y = simulate_drifting_process(parameters, record.u, plan.Ts, random);
-    return record;
+    PlantData data_set;
+    data_set.u = seeded_prbs(plan.prbs_stages, plan.prbs_hold, plan.low, plan.high, random);
+    data_set.t = Vector::LinSpaced(data_set.u.size(), 0, static_cast<double>(data_set.u.size() - 1)) * plan.Ts;
+    data_set.y = simulate_drifting_process(parameters, data_set.u, plan.Ts, random);
+    return data_set;
 }
 
 }  // namespace dynlab::inline numerics

@@ -37,8 +37,8 @@ double reading(const DriveParameters& p, double speed, double normal) {
 }
 
 /// Runs the drive from rest; voltage(k, y) is asked at each sample for what is held until the next one.
-DriveRecord run(const DriveParameters& p, const Vector& reference, RandomStream& random,
-                const std::function<double(Index k, double y)>& voltage) {
+DriveData run(const DriveParameters& p, const Vector& reference, RandomStream& random,
+              const std::function<double(Index k, double y)>& voltage) {
     p.validate();
     const Index N = reference.size();
     if (N == 0 || !reference.allFinite())
@@ -46,18 +46,18 @@ DriveRecord run(const DriveParameters& p, const Vector& reference, RandomStream&
             "The reference or voltage of the drive must have at least one sample, and every sample must be finite");
     const Vector load = load_of(p, N, random), normals = random.normal(N);
     const StepMatrices step = step_of(p);
-    DriveRecord record;
-    record.t = Vector::LinSpaced(N, 0, static_cast<double>(N - 1)) * p.Ts;
-    record.r = reference;
-    record.u.resize(N);
-    record.y.resize(N);
+    DriveData data_set;
+    data_set.t = Vector::LinSpaced(N, 0, static_cast<double>(N - 1)) * p.Ts;
+    data_set.r = reference;
+    data_set.u.resize(N);
+    data_set.y.resize(N);
     Eigen::Vector2d x = Eigen::Vector2d::Zero();
     for (Index k = 0; k < N; ++k) {
-        record.y[k] = reading(p, x[1], normals[k]);
-        record.u[k] = voltage(k, record.y[k]);
-        x = (step.F * x + step.G * Eigen::Vector2d(record.u[k], load[k])).eval();
+        data_set.y[k] = reading(p, x[1], normals[k]);
+        data_set.u[k] = voltage(k, data_set.y[k]);
+        x = (step.F * x + step.G * Eigen::Vector2d(data_set.u[k], load[k])).eval();
     }
-    return record;
+    return data_set;
 }
 
 Vector binary(const DriveExperiments& plan, double amplitude, RandomStream& random) {
@@ -101,7 +101,7 @@ TransferFunction drive_controller(const DriveParameters& p) {
     return TransferFunction(Vector{{p.gain + p.integral_gain * p.Ts, -p.gain}}, Vector{{1, -1, 0}}, p.Ts);
 }
 
-DriveRecord simulate_drive(const DriveParameters& p, const Vector& reference, RandomStream& random) {
+DriveData simulate_drive(const DriveParameters& p, const Vector& reference, RandomStream& random) {
     double sum = 0, next = 0;  // of the errors so far; the voltage that was computed for the next sample
     return run(p, reference, random, [&](Index k, double y) {
         const double now = next, error = reference[k] - y;
@@ -111,28 +111,28 @@ DriveRecord simulate_drive(const DriveParameters& p, const Vector& reference, Ra
     });
 }
 
-DriveRecord simulate_open_drive(const DriveParameters& p, const Vector& voltage, RandomStream& random) {
-    DriveRecord record = run(p, voltage, random, [&](Index k, double) { return voltage[k]; });
-    record.r.setZero();
-    return record;
+DriveData simulate_open_drive(const DriveParameters& p, const Vector& voltage, RandomStream& random) {
+    DriveData data_set = run(p, voltage, random, [&](Index k, double) { return voltage[k]; });
+    data_set.r.setZero();
+    return data_set;
 }
 
-std::vector<DriveRecord> simulate_drive(const DriveParameters& p, const DriveExperiments& plan, std::uint32_t seed) {
+std::vector<DriveData> simulate_drive(const DriveParameters& p, const DriveExperiments& plan, std::uint32_t seed) {
     p.validate();
     plan.validate();
     RandomStream random(seed);
-    std::vector<DriveRecord> records;
+    std::vector<DriveData> data_sets;
     for (const char* name : {"tracking", "validation"}) {
         const Vector reference = binary(plan, plan.reference, random);
-        records.push_back(simulate_drive(p, reference, random));
-        records.back().name = name;
+        data_sets.push_back(simulate_drive(p, reference, random));
+        data_sets.back().name = name;
     }
-    records.push_back(simulate_drive(p, Vector::Zero(records.front().r.size()), random));
-    records.back().name = "regulation";
+    data_sets.push_back(simulate_drive(p, Vector::Zero(data_sets.front().r.size()), random));
+    data_sets.back().name = "regulation";
     const Vector voltage = binary(plan, plan.voltage, random);
-    records.push_back(simulate_open_drive(p, voltage, random));
-    records.back().name = "open_loop";
-    return records;
+    data_sets.push_back(simulate_open_drive(p, voltage, random));
+    data_sets.back().name = "open_loop";
+    return data_sets;
 }
 
 }  // namespace dynlab::inline numerics

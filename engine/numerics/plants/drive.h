@@ -52,19 +52,19 @@ struct DriveExperiments {
 };
 
 /// Instants (s), reference and reading (rad/s), voltage (V), N values each.
-struct DriveRecord {
+struct DriveData {
     std::string name;
     Vector t, r, u, y;
 };
 
 /// The loop with a given reference, from rest; draws the load, then the tachometer's noise.
-DriveRecord simulate_drive(const DriveParameters& parameters, const Vector& reference, RandomStream& random);
+DriveData simulate_drive(const DriveParameters& parameters, const Vector& reference, RandomStream& random);
 /// The same with the loop open and a given voltage; the returned reference is zero.
-DriveRecord simulate_open_drive(const DriveParameters& parameters, const Vector& voltage, RandomStream& random);
+DriveData simulate_open_drive(const DriveParameters& parameters, const Vector& voltage, RandomStream& random);
 
 /// tracking and validation: the loop with two orders of bits; regulation: the reference rests at zero; open_loop: the
 /// voltage is given, without feedback. Equal seeds give equal data.
-std::vector<DriveRecord> simulate_drive(const DriveParameters& parameters, const DriveExperiments& experiments,
-                                        std::uint32_t seed);
+std::vector<DriveData> simulate_drive(const DriveParameters& parameters, const DriveExperiments& experiments,
+                                      std::uint32_t seed);
 
 }  // namespace dynlab::inline numerics

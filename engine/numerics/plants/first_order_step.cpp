@@ -23,19 +23,19 @@ FirstOrderStepTruth first_order_step_truth(const FirstOrderStepParameters& p) {
     return {-1 / p.time_constant, p.gain / p.time_constant, f, p.gain * (1 - f)};
 }
 
-FirstOrderStepRecord simulate_first_order_step(const FirstOrderStepParameters& p, std::uint32_t seed) {
+FirstOrderStepData simulate_first_order_step(const FirstOrderStepParameters& p, std::uint32_t seed) {
     p.validate();
-    FirstOrderStepRecord record;
-    record.t = Vector::LinSpaced(p.samples, 0, static_cast<double>(p.samples - 1)) * p.Ts;
-    record.u = Vector::Constant(p.samples, p.step_height);
+    FirstOrderStepData data_set;
+    data_set.t = Vector::LinSpaced(p.samples, 0, static_cast<double>(p.samples - 1)) * p.Ts;
+    data_set.u = Vector::Constant(p.samples, p.step_height);
     const double final_output = p.gain * p.step_height;
-    const Vector decay = (-record.t.array() / p.time_constant).exp();
-    record.y = final_output * (1 - decay.array());
-    record.ydot = final_output / p.time_constant * decay;
+    const Vector decay = (-data_set.t.array() / p.time_constant).exp();
+    data_set.y = final_output * (1 - decay.array());
+    data_set.ydot = final_output / p.time_constant * decay;
     RandomStream random(seed);
-    record.y_noisy = measure(record.y, p.output_noise_std, 0, random);
-    record.ydot_noisy = measure(record.ydot, p.derivative_noise_std, 0, random);
-    return record;
+    data_set.y_noisy = measure(data_set.y, p.output_noise_std, 0, random);
+    data_set.ydot_noisy = measure(data_set.ydot, p.derivative_noise_std, 0, random);
+    return data_set;
 }
 
 }  // namespace dynlab::inline numerics

@@ -23,7 +23,7 @@ struct FirstOrderStepParameters {
 };
 
 /// N values each; the derivative at the first sample is the one just after the step.
-struct FirstOrderStepRecord {
+struct FirstOrderStepData {
     Vector t, u, y, ydot, y_noisy, ydot_noisy;
 };
 
@@ -38,6 +38,6 @@ struct FirstOrderStepTruth {
 FirstOrderStepTruth first_order_step_truth(const FirstOrderStepParameters& parameters);
 
 /// The noise of y is drawn before that of ydot; equal seeds give equal data.
-FirstOrderStepRecord simulate_first_order_step(const FirstOrderStepParameters& parameters, std::uint32_t seed);
+FirstOrderStepData simulate_first_order_step(const FirstOrderStepParameters& parameters, std::uint32_t seed);
 
 }  // namespace dynlab::inline numerics

@@ -35,19 +35,19 @@ HeatExchangerTruth heat_exchanger_truth(const HeatExchangerParameters& p) {
 PlantData simulate_heat_exchanger(const HeatExchangerParameters& p, std::uint32_t seed) {
     const HeatExchangerTruth truth = heat_exchanger_truth(p);
     RandomStream random(seed);
-    PlantData record;
-    record.t = sampling_instants(p.duration, p.Ts);
-    const Index N = record.t.size(), step = static_cast<Index>(std::llround(p.step_time / p.Ts));
-    record.u.resize(N);
+    PlantData data_set;
+    data_set.t = sampling_instants(p.duration, p.Ts);
+    const Index N = data_set.t.size(), step = static_cast<Index>(std::llround(p.step_time / p.Ts));
+    data_set.u.resize(N);
     Vector temperature(N);
     for (Index k = 0; k < N; ++k) {
-        record.u[k] = k < step ? p.valve_before : p.valve_after;
+        data_set.u[k] = k < step ? p.valve_before : p.valve_after;
         const double since_step = static_cast<double>(k - step) * p.Ts;
         const double done = k < step ? 0 : -std::expm1(-since_step / truth.time_constant);
         temperature[k] = truth.initial_output + (truth.final_output - truth.initial_output) * done;
     }
-    record.y = measure(temperature, p.noise_std, p.resolution, random);
-    return record;
+    data_set.y = measure(temperature, p.noise_std, p.resolution, random);
+    return data_set;
 }
 
 }  // namespace dynlab::inline numerics

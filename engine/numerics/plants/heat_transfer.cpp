@@ -15,17 +15,17 @@ double heating(const HeatTransferParameters& p, double voltage) {
     return p.power * part * part;
 }
 
-PlantData record_about(const HeatTransferParameters& p, const HeatTransferExperiments& plan, double operating_point,
-                       RandomStream& random) {
+PlantData data_about(const HeatTransferParameters& p, const HeatTransferExperiments& plan, double operating_point,
+                     RandomStream& random) {
     const auto rest = static_cast<Index>(std::llround(plan.rest / plan.Ts));
     const Vector bits = seeded_prbs(plan.prbs_stages, plan.prbs_hold, operating_point - plan.amplitude,
                                     operating_point + plan.amplitude, random);
-    PlantData record;
-    record.u.resize(rest + bits.size());
-    record.u << Vector::Constant(rest, operating_point), bits;
-    record.t = Vector::LinSpaced(record.u.size(), 0, static_cast<double>(record.u.size() - 1)) * plan.Ts;
-    record.y = simulate_heat_transfer(p, record.u, plan.Ts, random);
-    return record;
+    PlantData data_set;
+    data_set.u.resize(rest + bits.size());
+    data_set.u << Vector::Constant(rest, operating_point), bits;
+    data_set.t = Vector::LinSpaced(data_set.u.size(), 0, static_cast<double>(data_set.u.size() - 1)) * plan.Ts;
+    data_set.y = simulate_heat_transfer(p, data_set.u, plan.Ts, random);
+    return data_set;
 }
 
 }  // namespace
@@ -89,15 +89,15 @@ Vector simulate_heat_transfer(const HeatTransferParameters& p, const Vector& u, 
     return measure(temperature, p.noise_std, p.resolution, random);
 }
 
-HeatTransferRecords simulate_heat_transfer(const HeatTransferParameters& parameters,
-                                           const HeatTransferExperiments& experiments, std::uint32_t seed) {
+HeatTransferData simulate_heat_transfer(const HeatTransferParameters& parameters,
+                                        const HeatTransferExperiments& experiments, std::uint32_t seed) {
     experiments.validate();
     RandomStream random(seed);
-    HeatTransferRecords records;
-    records.estimation = record_about(parameters, experiments, experiments.low, random);
-    records.validation = record_about(parameters, experiments, experiments.low, random);
-    records.high = record_about(parameters, experiments, experiments.high, random);
-    return records;
+    HeatTransferData data_sets;
+    data_sets.estimation = data_about(parameters, experiments, experiments.low, random);
+    data_sets.validation = data_about(parameters, experiments, experiments.low, random);
+    data_sets.high = data_about(parameters, experiments, experiments.high, random);
+    return data_sets;
 }
 
 }  // namespace dynlab::inline numerics

@@ -61,12 +61,12 @@ HeatTransferTruth heat_transfer_truth(const HeatTransferParameters& parameters, 
 Vector simulate_heat_transfer(const HeatTransferParameters& parameters, const Vector& u, double Ts,
                               RandomStream& random);
 
-struct HeatTransferRecords {
+struct HeatTransferData {
     PlantData estimation, validation;  ///< about the low operating point, two orders of bits
     PlantData high;                    ///< about the high one
 };
 /// Equal seeds give equal data.
-HeatTransferRecords simulate_heat_transfer(const HeatTransferParameters& parameters,
-                                           const HeatTransferExperiments& experiments, std::uint32_t seed);
+HeatTransferData simulate_heat_transfer(const HeatTransferParameters& parameters,
+                                        const HeatTransferExperiments& experiments, std::uint32_t seed);
 
 }  // namespace dynlab::inline numerics

@@ -6,12 +6,12 @@
 namespace dynlab::inline numerics {
 namespace {
 
-PlantData record_of(const LinearSystemParameters& p, const TransferFunction& G, RandomStream& random) {
-    PlantData record;
-    record.u = seeded_prbs(p.prbs_stages, p.prbs_hold, -p.amplitude, p.amplitude, random);
-    record.t = Vector::LinSpaced(record.u.size(), 0, static_cast<double>(record.u.size() - 1)) * p.Ts;
-    record.y = measure(lsim(G, record.u, p.Ts), p.noise_std, 0, random);
-    return record;
+PlantData data_of(const LinearSystemParameters& p, const TransferFunction& G, RandomStream& random) {
+    PlantData data_set;
+    data_set.u = seeded_prbs(p.prbs_stages, p.prbs_hold, -p.amplitude, p.amplitude, random);
+    data_set.t = Vector::LinSpaced(data_set.u.size(), 0, static_cast<double>(data_set.u.size() - 1)) * p.Ts;
+    data_set.y = measure(lsim(G, data_set.u, p.Ts), p.noise_std, 0, random);
+    return data_set;
 }
 
 }  // namespace
@@ -30,13 +30,13 @@ TransferFunction linear_system_truth(const LinearSystemParameters& p) {
                             Vector{{1, first + p.pole, w * w + first * p.pole, p.pole * w * w}});
 }
 
-LinearSystemRecords simulate_linear_system(const LinearSystemParameters& parameters, std::uint32_t seed) {
+LinearSystemData simulate_linear_system(const LinearSystemParameters& parameters, std::uint32_t seed) {
     const TransferFunction G = linear_system_truth(parameters);
     RandomStream random(seed);
-    LinearSystemRecords records;
-    records.estimation = record_of(parameters, G, random);
-    records.validation = record_of(parameters, G, random);
-    return records;
+    LinearSystemData data_sets;
+    data_sets.estimation = data_of(parameters, G, random);
+    data_sets.validation = data_of(parameters, G, random);
+    return data_sets;
 }
 
 }  // namespace dynlab::inline numerics

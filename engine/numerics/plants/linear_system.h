@@ -28,10 +28,10 @@ struct LinearSystemParameters {
 /// The true system, computed from the parameters. Throws InvalidArgument as their validate().
 TransferFunction linear_system_truth(const LinearSystemParameters& parameters);
 
-struct LinearSystemRecords {
+struct LinearSystemData {
     PlantData estimation, validation;
 };
 /// Equal seeds give equal data.
-LinearSystemRecords simulate_linear_system(const LinearSystemParameters& parameters, std::uint32_t seed);
+LinearSystemData simulate_linear_system(const LinearSystemParameters& parameters, std::uint32_t seed);
 
 }  // namespace dynlab::inline numerics

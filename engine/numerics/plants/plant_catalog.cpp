@@ -8,18 +8,19 @@
 namespace dynlab::inline numerics {
 namespace {
 
-PlantValues input_and_output(const PlantData& record) {
-    return {{"t", record.t}, {"u", record.u}, {"y", record.y}};
+PlantValues input_and_output(const PlantData& simulated_data) {
+    return {{"t", simulated_data.t}, {"u", simulated_data.u}, {"y", simulated_data.y}};
 }
 
 /// Adds another experiment whose names end in `part`.
-void add_part(PlantValues& values, const PlantData& record, const std::string& part) {
-    for (PlantValue& value : input_and_output(record)) values.push_back({value.name + part, std::move(value.value)});
+void add_part(PlantValues& values, const PlantData& simulated_data, const std::string& part) {
+    for (PlantValue& value : input_and_output(simulated_data))
+        values.push_back({value.name + part, std::move(value.value)});
 }
 
-PlantValues crane_record(const PlantChoice& choice) {
+PlantValues crane_data(const PlantChoice& choice) {
     PlantValues values;
-    for (CraneRecord& experiment : simulate_crane(crane_variant(choice.specimen), {}, choice.seed))
+    for (CraneData& experiment : simulate_crane(crane_variant(choice.specimen), {}, choice.seed))
         values.push_back({experiment.name, PlantValues{{"t", std::move(experiment.t)},
                                                        {"u", std::move(experiment.u)},
                                                        {"x", std::move(experiment.x)},
@@ -37,14 +38,14 @@ PlantValues crane_theory(std::uint32_t specimen) {
             {"time_constant", truth.time_constant}};
 }
 
-PlantValues drifting_process_record(const PlantChoice& choice) {
+PlantValues drifting_process_data(const PlantChoice& choice) {
     return input_and_output(simulate_drifting_process(drifting_process_variant(choice.specimen), {}, choice.seed));
 }
 
 PlantValues drifting_process_theory(std::uint32_t specimen) {
     const DriftingProcessParameters plant = drifting_process_variant(specimen);
-    const PlantData record = simulate_drifting_process(plant, {}, 1);
-    const Vector& t = record.t;
+    const PlantData simulated_data = simulate_drifting_process(plant, {}, 1);
+    const Vector& t = simulated_data.t;
     return {{"noise_std", plant.noise_std},
             {"cleaning_time", plant.cleaning_time},
             {"t", t},
@@ -52,9 +53,9 @@ PlantValues drifting_process_theory(std::uint32_t specimen) {
             {"time_constant", Vector(t.unaryExpr([&plant](double time) { return plant.time_constant(time); }))}};
 }
 
-PlantValues drive_record(const PlantChoice& choice) {
+PlantValues drive_data(const PlantChoice& choice) {
     PlantValues values;
-    for (DriveRecord& experiment : simulate_drive(drive_variant(choice.specimen), {}, choice.seed))
+    for (DriveData& experiment : simulate_drive(drive_variant(choice.specimen), {}, choice.seed))
         values.push_back({experiment.name, PlantValues{{"t", std::move(experiment.t)},
                                                        {"r", std::move(experiment.r)},
                                                        {"u", std::move(experiment.u)},
@@ -68,7 +69,7 @@ PlantValues drive_theory(std::uint32_t specimen) {
             {"load_std", plant.load_std}, {"load_time", plant.load_time}, {"noise_std", plant.noise_std}};
 }
 
-PlantValues heat_exchanger_record(const PlantChoice& choice) {
+PlantValues heat_exchanger_data(const PlantChoice& choice) {
     return input_and_output(simulate_heat_exchanger(heat_exchanger_variant(choice.specimen), choice.seed));
 }
 
@@ -81,11 +82,11 @@ PlantValues heat_exchanger_theory(std::uint32_t specimen) {
             {"final_output", truth.final_output}};
 }
 
-PlantValues heat_transfer_record(const PlantChoice& choice) {
-    const HeatTransferRecords records = simulate_heat_transfer(heat_transfer_variant(choice.specimen), {}, choice.seed);
-    PlantValues values = input_and_output(records.estimation);
-    add_part(values, records.validation, "_val");
-    add_part(values, records.high, "_high");
+PlantValues heat_transfer_data(const PlantChoice& choice) {
+    const HeatTransferData data_sets = simulate_heat_transfer(heat_transfer_variant(choice.specimen), {}, choice.seed);
+    PlantValues values = input_and_output(data_sets.estimation);
+    add_part(values, data_sets.validation, "_val");
+    add_part(values, data_sets.high, "_high");
     return values;
 }
 
@@ -106,10 +107,10 @@ PlantValues heat_transfer_theory(std::uint32_t specimen) {
             {"high", about(plan.high)}};
 }
 
-PlantValues linear_system_record(const PlantChoice& choice) {
-    const LinearSystemRecords records = simulate_linear_system(linear_system_variant(choice.specimen), choice.seed);
-    PlantValues values = input_and_output(records.estimation);
-    add_part(values, records.validation, "_val");
+PlantValues linear_system_data(const PlantChoice& choice) {
+    const LinearSystemData data_sets = simulate_linear_system(linear_system_variant(choice.specimen), choice.seed);
+    PlantValues values = input_and_output(data_sets.estimation);
+    add_part(values, data_sets.validation, "_val");
     return values;
 }
 
@@ -118,14 +119,15 @@ PlantValues linear_system_theory(std::uint32_t specimen) {
     return {{"noise_std", plant.noise_std}, {"G", linear_system_truth(plant)}};
 }
 
-PlantValues step_response_record(const PlantChoice& choice) {
-    const FirstOrderStepRecord record = simulate_first_order_step(step_response_variant(choice.specimen), choice.seed);
-    return {{"t", record.t},
-            {"u", record.u},
-            {"y", record.y},
-            {"ydot", record.ydot},
-            {"y_noisy", record.y_noisy},
-            {"ydot_noisy", record.ydot_noisy}};
+PlantValues step_response_data(const PlantChoice& choice) {
+    const FirstOrderStepData simulated_data =
+        simulate_first_order_step(step_response_variant(choice.specimen), choice.seed);
+    return {{"t", simulated_data.t},
+            {"u", simulated_data.u},
+            {"y", simulated_data.y},
+            {"ydot", simulated_data.ydot},
+            {"y_noisy", simulated_data.y_noisy},
+            {"ydot_noisy", simulated_data.ydot_noisy}};
 }
 
 PlantValues step_response_theory(std::uint32_t specimen) {
@@ -133,7 +135,7 @@ PlantValues step_response_theory(std::uint32_t specimen) {
     return {{"a", truth.a}, {"b", truth.b}, {"f", truth.f}, {"g", truth.g}};
 }
 
-PlantValues suspension_record(const PlantChoice& choice) {
+PlantValues suspension_data(const PlantChoice& choice) {
     return input_and_output(simulate_suspension(suspension_variant(choice.specimen), choice.seed));
 }
 
@@ -146,9 +148,9 @@ PlantValues suspension_theory(std::uint32_t specimen) {
             {"overshoot_time", truth.overshoot_time}};
 }
 
-PlantValues thruster_record(const PlantChoice& choice) {
+PlantValues thruster_data(const PlantChoice& choice) {
     PlantValues values;
-    for (ThrusterRecord& experiment : simulate_thruster(thruster_variant(choice.specimen), {}, choice.seed))
+    for (ThrusterData& experiment : simulate_thruster(thruster_variant(choice.specimen), {}, choice.seed))
         values.push_back({experiment.name, PlantValues{{"t", std::move(experiment.t)},
                                                        {"pwm", std::move(experiment.pwm)},
                                                        {"force", std::move(experiment.force)}}});
@@ -173,10 +175,10 @@ PlantValues thruster_theory(std::uint32_t specimen) {
             {"thrust", thrust}};
 }
 
-PlantValues two_tanks_record(const PlantChoice& choice) {
-    const TwoTanksRecords records = simulate_two_tanks(two_tanks_variant(choice.specimen), {}, choice.seed);
-    PlantValues values = input_and_output(records.estimation);
-    add_part(values, records.validation, "_val");
+PlantValues two_tanks_data(const PlantChoice& choice) {
+    const TwoTanksData data_sets = simulate_two_tanks(two_tanks_variant(choice.specimen), {}, choice.seed);
+    PlantValues values = input_and_output(data_sets.estimation);
+    add_part(values, data_sets.validation, "_val");
     return values;
 }
 
@@ -209,28 +211,28 @@ std::vector<Plant> all_rigs() {
          {{"t", "s"}, {"u", "V"}, {"x", "m"}, {"theta", "rad"}},
          {"estimation", "validation", "steps", "free_swing", "limits"},
          CraneExperiments().Ts,
-         crane_record,
+         crane_data,
          crane_theory},
         {"drifting_process",
          "A water heater that furs up",
          {{"t", "s"}, {"u", "%"}, {"y", "K"}},
          {},
          DriftingProcessExperiments().Ts,
-         drifting_process_record,
+         drifting_process_data,
          drifting_process_theory},
         {"drive",
          "Drive with speed control",
          {{"t", "s"}, {"r", "rad/s"}, {"u", "V"}, {"y", "rad/s"}},
          {"tracking", "validation", "regulation", "open_loop"},
          DriveParameters().Ts,
-         drive_record,
+         drive_data,
          drive_theory},
         {"heat_exchanger",
          "Step response of a heat exchanger",
          {{"t", "s"}, {"u", "%"}, {"y", "°C"}},
          {},
          HeatExchangerParameters().Ts,
-         heat_exchanger_record,
+         heat_exchanger_data,
          heat_exchanger_theory},
         {"heat_transfer",
          "Heat-transfer rig, records for estimation, validation and another operating point",
@@ -245,42 +247,42 @@ std::vector<Plant> all_rigs() {
           {"y_high", "°C"}},
          {},
          HeatTransferExperiments().Ts,
-         heat_transfer_record,
+         heat_transfer_data,
          heat_transfer_theory},
         {"linear_system",
          "A linear system, records for estimation and validation",
          {{"t", "s"}, {"u", ""}, {"y", ""}, {"t_val", "s"}, {"u_val", ""}, {"y_val", ""}},
          {},
          LinearSystemParameters().Ts,
-         linear_system_record,
+         linear_system_data,
          linear_system_theory},
         {"step_response",
          "Step response of a first-order system",
          {{"t", "s"}, {"u", ""}, {"y", ""}, {"ydot", "1/s"}, {"y_noisy", ""}, {"ydot_noisy", "1/s"}},
          {},
          FirstOrderStepParameters().Ts,
-         step_response_record,
+         step_response_data,
          step_response_theory},
         {"suspension",
          "Response of a suspension to a unit step",
          {{"t", "s"}, {"u", "V"}, {"y", "mm"}},
          {},
          SuspensionParameters().Ts,
-         suspension_record,
+         suspension_data,
          suspension_theory},
         {"thruster",
          "Thruster",
          {{"t", "s"}, {"pwm", "µs"}, {"force", "N"}},
          {"sine_100", "sine_200", "sine_300", "square_100", "square_200", "square_300"},
          ThrusterExperiments().Ts,
-         thruster_record,
+         thruster_data,
          thruster_theory},
         {"two_tanks",
          "Two tanks, records for estimation and validation",
          {{"t", "s"}, {"u", "V"}, {"y", "V"}, {"t_val", "s"}, {"u_val", "V"}, {"y_val", "V"}},
          {},
          TwoTanksExperiments().Ts,
-         two_tanks_record,
+         two_tanks_data,
          two_tanks_theory},
     };
 }

@@ -39,7 +39,7 @@ struct Plant {
     double Ts = 0;                         ///< of its data sets, s
 
     /// Returns the data set, N values for each signal. Equal choices give equal data on every machine.
-    PlantValues (*record)(const PlantChoice& choice) = nullptr;
+    PlantValues (*simulated_data)(const PlantChoice& choice) = nullptr;
     /// True parameters of the plant variant, without noise.
     PlantValues (*truth)(std::uint32_t specimen) = nullptr;
 };

@@ -39,20 +39,20 @@ PlantData simulate_suspension(const SuspensionParameters& p, std::uint32_t seed)
     const SuspensionTruth truth = suspension_truth(p);
     const double z = truth.damping_ratio, root = std::sqrt(1 - z * z), w0 = truth.natural_frequency;
     RandomStream random(seed);
-    PlantData record;
-    record.t = sampling_instants(p.duration, p.Ts);
-    const Index N = record.t.size(), step = static_cast<Index>(std::llround(p.step_time / p.Ts));
-    record.u = Vector::Zero(N);
+    PlantData data_set;
+    data_set.t = sampling_instants(p.duration, p.Ts);
+    const Index N = data_set.t.size(), step = static_cast<Index>(std::llround(p.step_time / p.Ts));
+    data_set.u = Vector::Zero(N);
     Vector displacement = Vector::Zero(N);
     for (Index k = step; k < N; ++k) {
-        record.u[k] = p.step_height;
+        data_set.u[k] = p.step_height;
         // Step response: 1 - exp(-z w0 t) (cos(wp t) + z/sqrt(1 - z^2) sin(wp t)), wp = w0 sqrt(1 - z^2).
         const double t = static_cast<double>(k - step) * p.Ts, phase = w0 * root * t;
         const double swing = std::exp(-z * w0 * t) * (std::cos(phase) + z / root * std::sin(phase));
         displacement[k] = truth.gain * p.step_height * (1 - swing);
     }
-    record.y = measure(displacement, p.noise_std, p.resolution, random);
-    return record;
+    data_set.y = measure(displacement, p.noise_std, p.resolution, random);
+    return data_set;
 }
 
 }  // namespace dynlab::inline numerics

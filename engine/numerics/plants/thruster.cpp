@@ -125,30 +125,30 @@ Vector simulate_thruster(const ThrusterParameters& parameters, const Vector& pwm
     return readings(parameters, pwm, Ts, {pwm.size(), random});
 }
 
-std::vector<ThrusterRecord> simulate_thruster(const ThrusterParameters& parameters,
-                                              const ThrusterExperiments& experiments, std::uint32_t seed) {
+std::vector<ThrusterData> simulate_thruster(const ThrusterParameters& parameters,
+                                            const ThrusterExperiments& experiments, std::uint32_t seed) {
     parameters.validate();
     experiments.validate();
     RandomStream random(seed);
     // All random numbers are drawn in the order of the experiments; after that each experiment can be simulated
     // separately.
-    std::vector<ThrusterRecord> records;
+    std::vector<ThrusterData> data_sets;
     std::vector<ThrusterNormals> normals;
     for (const ChirpShape shape : {ChirpShape::kSine, ChirpShape::kSquare}) {
         for (const double amplitude : experiments.amplitudes) {
-            ThrusterRecord record;
-            record.name = (shape == ChirpShape::kSine ? "sine_" : "square_") + number_text(amplitude);
-            record.pwm = chirp_about_neutral(parameters, experiments, shape, amplitude);
-            const Index N = record.pwm.size();
-            record.t = Vector::LinSpaced(N, 0, static_cast<double>(N - 1)) * experiments.Ts;
+            ThrusterData data_set;
+            data_set.name = (shape == ChirpShape::kSine ? "sine_" : "square_") + number_text(amplitude);
+            data_set.pwm = chirp_about_neutral(parameters, experiments, shape, amplitude);
+            const Index N = data_set.pwm.size();
+            data_set.t = Vector::LinSpaced(N, 0, static_cast<double>(N - 1)) * experiments.Ts;
             normals.emplace_back(N, random);
-            records.push_back(std::move(record));
+            data_sets.push_back(std::move(data_set));
         }
     }
-    side_by_side(records.size(), [&](std::size_t i) {
-        records[i].force = readings(parameters, records[i].pwm, experiments.Ts, normals[i]);
+    side_by_side(data_sets.size(), [&](std::size_t i) {
+        data_sets[i].force = readings(parameters, data_sets[i].pwm, experiments.Ts, normals[i]);
     });
-    return records;
+    return data_sets;
 }
 
 }  // namespace dynlab::inline numerics

@@ -67,7 +67,7 @@ struct ThrusterExperiments {
 };
 
 /// Instants (s), pulse widths (whole microseconds) and readings of the load cell (N), N values each.
-struct ThrusterRecord {
+struct ThrusterData {
     std::string name;  ///< sine_100, square_100, ...: shape and amplitude
     Vector t, pwm, force;
 };
@@ -76,7 +76,7 @@ struct ThrusterRecord {
 Vector simulate_thruster(const ThrusterParameters& parameters, const Vector& pwm, double Ts, std::uint32_t seed);
 
 /// A sine and a square chirp of every amplitude, each with independent noise; equal seeds give equal data.
-std::vector<ThrusterRecord> simulate_thruster(const ThrusterParameters& parameters,
-                                              const ThrusterExperiments& experiments, std::uint32_t seed);
+std::vector<ThrusterData> simulate_thruster(const ThrusterParameters& parameters,
+                                            const ThrusterExperiments& experiments, std::uint32_t seed);
 
 }  // namespace dynlab::inline numerics

@@ -73,15 +73,15 @@ Vector multisine_voltage(const TwoTanksExperiments& plan, RandomStream& random) 
     return (plan.mean_voltage + scale * sum.array()).max(0.).min(plan.greatest_voltage);
 }
 
-PlantData record_of(const TwoTanksParameters& p, const TwoTanksExperiments& plan, RandomStream& random) {
+PlantData data_of(const TwoTanksParameters& p, const TwoTanksExperiments& plan, RandomStream& random) {
     const TwoTanksTruth start = two_tanks_truth(p, plan.start_voltage);
-    PlantData record;
-    record.u = multisine_voltage(plan, random);
-    record.t = Vector::LinSpaced(plan.samples, 0, plan.samples - 1.) * plan.Ts;
-    const Matrix levels = two_tanks_levels(p, record.u, plan.Ts, {start.upper_level, start.lower_level});
+    PlantData data_set;
+    data_set.u = multisine_voltage(plan, random);
+    data_set.t = Vector::LinSpaced(plan.samples, 0, plan.samples - 1.) * plan.Ts;
+    const Matrix levels = two_tanks_levels(p, data_set.u, plan.Ts, {start.upper_level, start.lower_level});
     const Vector volts = p.sensor_offset + p.sensor_gain * levels.col(1).array();
-    record.y = measure(volts, p.noise_std, p.resolution, random);
-    return record;
+    data_set.y = measure(volts, p.noise_std, p.resolution, random);
+    return data_set;
 }
 
 }  // namespace
@@ -137,15 +137,15 @@ Matrix two_tanks_levels(const TwoTanksParameters& p, const Vector& voltage, doub
     return levels;
 }
 
-TwoTanksRecords simulate_two_tanks(const TwoTanksParameters& parameters, const TwoTanksExperiments& experiments,
-                                   std::uint32_t seed) {
+TwoTanksData simulate_two_tanks(const TwoTanksParameters& parameters, const TwoTanksExperiments& experiments,
+                                std::uint32_t seed) {
     parameters.validate();
     experiments.validate();
     RandomStream random(seed);
-    TwoTanksRecords records;
-    records.estimation = record_of(parameters, experiments, random);
-    records.validation = record_of(parameters, experiments, random);
-    return records;
+    TwoTanksData data_sets;
+    data_sets.estimation = data_of(parameters, experiments, random);
+    data_sets.validation = data_of(parameters, experiments, random);
+    return data_sets;
 }
 
 }  // namespace dynlab::inline numerics

@@ -57,11 +57,11 @@ TwoTanksTruth two_tanks_truth(const TwoTanksParameters& parameters, double volta
 Matrix two_tanks_levels(const TwoTanksParameters& parameters, const Vector& voltage, double Ts,
                         const std::array<double, 2>& start);
 
-struct TwoTanksRecords {
+struct TwoTanksData {
     PlantData estimation, validation;  ///< two choices of phases
 };
 /// Equal seeds give equal data.
-TwoTanksRecords simulate_two_tanks(const TwoTanksParameters& parameters, const TwoTanksExperiments& experiments,
-                                   std::uint32_t seed);
+TwoTanksData simulate_two_tanks(const TwoTanksParameters& parameters, const TwoTanksExperiments& experiments,
+                                std::uint32_t seed);
 
 }  // namespace dynlab::inline numerics

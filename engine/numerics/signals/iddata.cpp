@@ -131,17 +131,17 @@ Index IdData::sample_count() const {
 }
 
 Vector IdData::time(std::size_t experiment) const {
-    const Experiment& record = experiments.at(experiment);
-    if (record.t.size() > 0) return record.t;
-    Vector t(record.y.rows());
-    for (Index k = 0; k < t.size(); ++k) t(k) = record.start_time + static_cast<double>(k) * Ts;
+    const Experiment& data_set = experiments.at(experiment);
+    if (data_set.t.size() > 0) return data_set.t;
+    Vector t(data_set.y.rows());
+    for (Index k = 0; k < t.size(); ++k) t(k) = data_set.start_time + static_cast<double>(k) * Ts;
     return t;
 }
 
 double IdData::duration(std::size_t experiment) const {
-    const Experiment& record = experiments.at(experiment);
-    if (record.t.size() > 0) return record.t[record.t.size() - 1] - record.t[0];
-    return static_cast<double>(record.y.rows() - 1) * Ts;
+    const Experiment& data_set = experiments.at(experiment);
+    if (data_set.t.size() > 0) return data_set.t[data_set.t.size() - 1] - data_set.t[0];
+    return static_cast<double>(data_set.y.rows() - 1) * Ts;
 }
 
 double IdData::mean_step() const {

@@ -11,7 +11,7 @@ struct Level {
 };
 
 /// One step experiment, taken apart: what every reading of a step response starts from.
-struct StepRecord {
+struct StepData {
     Vector t, u, y;           ///< the data, N values each
     Index step_index = 0;     ///< first sample with the new input; 0 if the data begin with the step
     double step_time = 0;     ///< its instant, s
@@ -36,6 +36,6 @@ struct StepRecord {
 /// reduce the noise to 0.25 % of the step, and at most `widest_window` times the rise from 28.3 % to 63.2 %, so that a
 /// parabola still follows the response; single outliers are ignored. Throws InvalidArgument with the reason if the data
 /// are not those of a step experiment.
-StepRecord read_step_record(const IdData& data, double widest_window = 2);
+StepData read_step_data(const IdData& data, double widest_window = 2);
 
 }  // namespace dynlab::inline numerics

@@ -196,7 +196,7 @@ ClosedLoop::ClosedLoop(const TransferFunction& plant, const LoopController& cont
       system_(checked_loop(plant, controller, Ts)),
       Ts_(Ts),
       hold_(hold),
-      hold_of_record_(controller.sampled() ? Hold::kZoh : Hold::kFoh) {}
+      data_hold_(controller.sampled() ? Hold::kZoh : Hold::kFoh) {}
 
 bool ClosedLoop::stable() const {
     if (system_.order() == 0) return true;
@@ -221,7 +221,7 @@ Matrix ClosedLoop::sensitivities(const VectorView& r, int zeros) const {
     return psi;
 }
 
-IdData ClosedLoop::record(const VectorView& r, const VectorView& v) const {
+IdData ClosedLoop::simulate(const VectorView& r, const VectorView& v) const {
     if (r.size() != v.size())
         throw InvalidArgument("closed loop: the reference has {} but the noise has {}",
                               plural(r.size(), "{} sample", "{} samples"), v.size());
@@ -231,7 +231,7 @@ IdData ClosedLoop::record(const VectorView& r, const VectorView& v) const {
             "check margin(C*G)");
     const Response requested = to_reference(r), disturbed = to_disturbance(v);
     IdData data(Matrix(requested.x + disturbed.x + v), Matrix(requested.u + disturbed.u), Ts_);
-    data.hold = hold_of_record_;
+    data.hold = data_hold_;
     return data.with_reference(Matrix(r));
 }
 

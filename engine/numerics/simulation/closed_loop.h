@@ -41,7 +41,7 @@ class ClosedLoop {
     /// The data of r and v together: y = x + v, u, and the reference r. The hold is zoh with a sampled controller and
     /// foh with one in continuous time, whose u between the samples neither hold describes exactly. Throws
     /// InvalidArgument for signals of different lengths and an unstable loop.
-    IdData record(const VectorView& r, const VectorView& v) const;
+    IdData simulate(const VectorView& r, const VectorView& v) const;
 
   private:
     Response response(const VectorView& signal, Index input, Hold hold) const;
@@ -50,7 +50,7 @@ class ClosedLoop {
     LoopController controller_;
     StateSpace system_;  // from [r v] to [x u]
     double Ts_;
-    Hold hold_, hold_of_record_;
+    Hold hold_, data_hold_;
 };
 
 }  // namespace dynlab::inline numerics

@@ -27,12 +27,12 @@ class BurgLattice {
     double next() {
         ++order_;
         double products = 0, squares = 0;
-        for_each_record([&](auto&& f, auto&& b) {
+        for_each_experiment([&](auto&& f, auto&& b) {
             products += f.dot(b);
             squares += f.squaredNorm() + b.squaredNorm();
         });
         const double reflection = squares > 0 ? -2 * products / squares : 0;
-        for_each_record([&](auto&& f, auto&& b) {
+        for_each_experiment([&](auto&& f, auto&& b) {
             const Vector before = f;
             f += reflection * b;
             b += reflection * before;
@@ -44,7 +44,7 @@ class BurgLattice {
     /// f(k) and b(k-1) for k = order .. length-1 of each experiment. b(k-1) is stored at k - order, so that the errors
     /// of every order begin at the front.
     template <class Work>
-    void for_each_record(const Work& work) {
+    void for_each_experiment(const Work& work) {
         Index first = 0;
         for (const Index length : lengths_) {
             const Index rest = length - order_;

@@ -49,10 +49,10 @@ Matrix lagged_sum_covariance(const VectorView& g, const VectorView& Re, const st
     const Matrix R = symmetric_toeplitz(Re.tail(Re.size() / 2 + 1), lags);
     Matrix ends = Matrix::Zero(lags + 1, lags + 1);
     double N = 0;
-    for (const Vector& record : u) {
-        const auto [T, Z] = beyond_end(Re, record, lags);
+    for (const Vector& data_set : u) {
+        const auto [T, Z] = beyond_end(Re, data_set, lags);
         const Eigen::RowVectorXd sums = T.colwise().sum();
-        const auto samples = static_cast<double>(record.size());
+        const auto samples = static_cast<double>(data_set.size());
         ends += Z.transpose() * T + T.transpose() * Z - T.transpose() * R * T +
                 Re.sum() / samples * sums.transpose() * sums;
         N += samples;
@@ -66,9 +66,9 @@ double explained_part_upper_tail(double part, double directions, double dimensio
     return boost::math::ibetac(directions / 2, (dimension - directions) / 2, std::clamp(part, 0.0, 1.0), Policy());
 }
 
-double total_size(const std::vector<Vector>& records) {
+double total_size(const std::vector<Vector>& data_sets) {
     double N = 0;
-    for (const Vector& x : records) N += static_cast<double>(x.size());
+    for (const Vector& x : data_sets) N += static_cast<double>(x.size());
     return N;
 }
 

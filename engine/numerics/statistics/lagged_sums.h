@@ -21,7 +21,7 @@ Matrix lagged_sum_covariance(const VectorView& g, const VectorView& Re, const st
 double explained_part_upper_tail(double part, double directions, double dimension);
 
 /// Number of values in all experiments together.
-double total_size(const std::vector<Vector>& records);
+double total_size(const std::vector<Vector>& data_sets);
 
 /// (1/N) sum_k x(k + lag) y(k) over all experiments, lags -lags..lags, N values in all.
 Vector lagged_covariances(const std::vector<Vector>& x, const std::vector<Vector>& y, Index lags);

@@ -74,9 +74,9 @@ WhitenessTest whiteness_test(const std::vector<Vector>& errors, const ResidualOp
     options.validate();
     std::vector<Vector> e;
     Index longest = 0;
-    for (const Vector& record : errors) {
-        e.emplace_back(record.array() - record.mean());
-        longest = std::max(longest, record.size());
+    for (const Vector& data_set : errors) {
+        e.emplace_back(data_set.array() - data_set.mean());
+        longest = std::max(longest, data_set.size());
     }
     const Index lags = std::max<Index>(1, std::min(options.lags, longest / 2));
     return whiteness_of_covariances(e, lagged_covariances(e, e, lags).tail(lags + 1), options.confidence,

@@ -13,7 +13,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kShortRecord = 5000, kMaxSearchSamples = 2500, kMaxSecondSearchSamples = 16000;  // samples
+constexpr Index kShortSamples = 5000, kMaxSearchSamples = 2500, kMaxSecondSearchSamples = 16000;  // samples
 constexpr double kFineSampling = 40;       // samples per turn of the fastest pole that a search can do with
 constexpr double kStraight = 1e-3;         // of the input's standard deviation: largest error of linear interpolation
 constexpr double kSearchTolerance = 1e-4;  // relative, of parameters
@@ -95,10 +95,10 @@ Vector high_passed(const VectorView& x, double corner) {
 
 IdData without_slow_movement(const IdData& data) {
     IdData fast = data;
-    Experiment& record = fast.experiments.front();
-    const double corner = 2 * std::numbers::pi * kSlowCycles / static_cast<double>(record.y.rows());
-    record.y = Matrix(high_passed(record.y.col(0), corner));
-    record.u = Matrix(high_passed(record.u.col(0), corner));
+    Experiment& data_set = fast.experiments.front();
+    const double corner = 2 * std::numbers::pi * kSlowCycles / static_cast<double>(data_set.y.rows());
+    data_set.y = Matrix(high_passed(data_set.y.col(0), corner));
+    data_set.u = Matrix(high_passed(data_set.u.col(0), corner));
     return fast;
 }
 
@@ -109,12 +109,12 @@ IdData block_averages(const IdData& data, Index block) {
     const auto averaged = [&](const Matrix& x) -> Matrix {
         return x.col(0).head(count * block).reshaped(block, count).colwise().mean().transpose();
     };
-    IdData short_record = data;
-    short_record.Ts = data.Ts * static_cast<double>(block);
-    short_record.hold = Hold::kFoh;
-    short_record.experiments.front().y = averaged(whole.y);
-    short_record.experiments.front().u = averaged(whole.u);
-    return short_record;
+    IdData shortened_data = data;
+    shortened_data.Ts = data.Ts * static_cast<double>(block);
+    shortened_data.hold = Hold::kFoh;
+    shortened_data.experiments.front().y = averaged(whole.y);
+    shortened_data.experiments.front().u = averaged(whole.u);
+    return shortened_data;
 }
 
 /// The model from all samples, with the start and the constant that BIC selects, from the end of the search.
@@ -133,7 +133,7 @@ void choose_start(DelaySearch& search, const IdData& data, FitOptions options) {
 std::optional<DelaySearch> search_model(const IdData& data, const std::function<bool()>& cancel) {
     const VectorView u = data.experiments.front().u.col(0);
     const bool constant = (u.array() == u[0]).all();  // then a free start and a constant exclude each other
-    const Index block = data.sample_count() / kShortRecord;
+    const Index block = data.sample_count() / kShortSamples;
     DelaySearchOptions options;
     options.estimation.initial_state = constant ? InitialState::kAuto : InitialState::kEstimate;
     options.estimation.offset = constant ? Offset::kAuto : Offset::kEstimate;
@@ -155,13 +155,13 @@ double relative_error(const IdData& data, const TransferFunction& G) {
     return 1 - compare(data, G).fit_percent / 100;
 }
 
-void simulate(FittedRecord& fit) {
+void simulate(FittedData& fit) {
     fit.simulation = compare(fit.data, fit.model());
     fit.error = fit.y() - fit.simulation.output;
 }
 
 /// A pole whose natural frequency times the duration of the window is less than this.
-bool has_slow_pole(const FittedRecord& fit, double turns) {
+bool has_slow_pole(const FittedData& fit, double turns) {
     const double duration = static_cast<double>(fit.window.data.sample_count()) * fit.window.data.Ts;
     const ComplexVector poles = fit.model().poles();
     return std::any_of(poles.begin(), poles.end(), [&](Complex p) { return std::abs(p) * duration < turns; });
@@ -169,18 +169,18 @@ bool has_slow_pole(const FittedRecord& fit, double turns) {
 
 /// Whether the input alone explains the output: with a slow pole, a free motion from before the first sample is as good
 /// as a straight line.
-bool explains_from_rest(const FittedRecord& fit, double percent) {
+bool explains_from_rest(const FittedData& fit, double percent) {
     if (fit.simulation.start.state == InitialState::kZero) return fit.simulation.fit_percent > percent;
     return compare(fit.data, fit.model(), {InitialState::kZero, Offset::kEstimate}).fit_percent > percent;
 }
 
 /// What moves for so long is not seen behind a high-pass filter.
-bool is_integrator(const FittedRecord& fit) {
+bool is_integrator(const FittedData& fit) {
     return has_slow_pole(fit, 1) && explains_from_rest(fit, 80);
 }
 
 /// Whether the window lacks motion that the data contain: a chirp begins slowly.
-bool is_not_typical(const FittedRecord& fit) {
+bool is_not_typical(const FittedData& fit) {
     constexpr double kMore = 2;  // times the mean square error
     const bool longer = fit.data.sample_count() > fit.window.step * fit.window.data.sample_count();
     const double everywhere = fit.error.squaredNorm() / static_cast<double>(fit.error.size());
@@ -193,7 +193,7 @@ SearchWindow longer_window(const IdData& data, const SearchWindow& window) {
     return {every(data, first, window.step, window.data.hold, kMaxSecondSearchSamples), first, window.step};
 }
 
-bool is_doubtful(const FittedRecord& fit) {
+bool is_doubtful(const FittedData& fit) {
     constexpr double kSlowPole = 3;
     return fit.simulation.fit_percent < 50 || fit.simulation.start.state == InitialState::kEstimate ||
            has_slow_pole(fit, kSlowPole) || !fit.model().stable() || wanders(fit.error);
@@ -206,7 +206,7 @@ bool is_doubtful(const FittedRecord& fit) {
 /// them follows the input to within 1e-3 of its standard deviation (the window then has hold foh).
 SearchWindow search_window(const IdData& data) {
     const Index N = data.sample_count();
-    if (N <= kShortRecord) return {data, 0, 1};
+    if (N <= kShortSamples) return {data, 0, 1};
     const VectorView u = data.experiments.front().u.col(0);
     const Index first = lively_start(u, kMaxSearchSamples);
     const Index most = std::max<Index>(1, (N - first) / kMaxSearchSamples);
@@ -223,11 +223,11 @@ SearchWindow search_window(const IdData& data) {
 
 }  // namespace
 
-Message FittedRecord::with_unit(double value, int digits) const {
+Message FittedData::with_unit(double value, int digits) const {
     return numerics::with_unit(rounded(value, digits), data.output_units.front());
 }
 
-bool FittedRecord::runs_away() const {
+bool FittedData::runs_away() const {
     constexpr double kFar = 3, kHalf = 50;  // times the range of the output; per cent of fit
     if (!model().stable()) return !explains_from_rest(*this, kHalf);
     if (simulation.fit_percent > kHalf) return false;
@@ -235,20 +235,20 @@ bool FittedRecord::runs_away() const {
     return !(range(simulation.output) < kFar * range(y()));
 }
 
-double FittedRecord::deviation() const {
+double FittedData::deviation() const {
     return standard_deviation(y());
 }
 
-void FittedRecord::take_off(const VectorView& part) {
+void FittedData::take_off(const VectorView& part) {
     data.experiments.front().y.col(0) -= part;
     simulate(*this);
 }
 
-std::optional<FittedRecord> fitted_record(const IdData& data, const std::function<bool()>& cancel) {
+std::optional<FittedData> fitted_data(const IdData& data, const std::function<bool()>& cancel) {
     SearchWindow window = search_window(data);
     std::optional<DelaySearch> search = search_model(window.data, cancel);
     if (!search) return std::nullopt;
-    FittedRecord fit{data, std::move(window), std::move(*search), {}, {}};
+    FittedData fit{data, std::move(window), std::move(*search), {}, {}};
     simulate(fit);
     if (is_not_typical(fit)) {
         fit.window = longer_window(data, fit.window);
@@ -278,7 +278,7 @@ std::optional<FittedRecord> fitted_record(const IdData& data, const std::functio
     return fit;
 }
 
-DataIssue about(const FittedRecord& fit, const char* code, Weight weight, const Message& message, double value) {
+DataIssue about(const FittedData& fit, const char* code, Weight weight, const Message& message, double value) {
     return {code, weight, fit.output(), message, value, 0, {}};
 }
 

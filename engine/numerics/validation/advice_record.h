@@ -19,7 +19,7 @@ struct SearchWindow {
 };
 
 /// Data, the linear model that explains them best, and the model's error.
-struct FittedRecord {
+struct FittedData {
     IdData data;  ///< one experiment, one input, one output, regular sampling; findings take off y what is no response
     SearchWindow window;
     DelaySearch search;
@@ -54,10 +54,10 @@ struct FittedRecord {
 /// signals worse by more than 5 %. An integrator that explains 80 % from rest and a constant is kept: it is not visible
 /// behind the filter either (but its free motion looks like a drift). A model that explains all data worse than -50 %
 /// is not used. No value if no model can be fitted, or when canceled.
-std::optional<FittedRecord> fitted_record(const IdData& data, const std::function<bool()>& cancel);
+std::optional<FittedData> fitted_data(const IdData& data, const std::function<bool()>& cancel);
 
 /// A finding about the output.
-DataIssue about(const FittedRecord& fit, const char* code, Weight weight, const Message& message, double value);
+DataIssue about(const FittedData& fit, const char* code, Weight weight, const Message& message, double value);
 
 /// "3, 10 to 12, ...": the first four.
 MessageList listed_places(const std::vector<Segment>& segments);

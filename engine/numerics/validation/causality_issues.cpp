@@ -44,7 +44,7 @@ bool may_be_exchanged(const IdData& turned, double forward) {
 
 /// Whether the error is correlated with inputs from `first` samples later on, in addition to earlier inputs. A smooth
 /// input, whose last samples predict the next ones, has no later part with which the error could be correlated.
-bool follows_later_inputs(const FittedRecord& fit, Index first = 1) {
+bool follows_later_inputs(const FittedData& fit, Index first = 1) {
     const IdData& window = fit.window.data;
     const Index count = std::min(window.sample_count(), kMostCausalSamples);
     if (count < 6 * (kPastInputs + kLaterInputs)) return false;
@@ -79,13 +79,13 @@ double unpredictable_part(const VectorView& x) {
 /// Whether noise is in the input and none in the output, as in a smooth signal that was put in and its measured
 /// response.
 bool output_is_smoother(const IdData& window) {
-    const Experiment& record = window.experiments.front();
-    return unpredictable_part(record.y.col(0)) < unpredictable_part(record.u.col(0));
+    const Experiment& data_set = window.experiments.front();
+    return unpredictable_part(data_set.y.col(0)) < unpredictable_part(data_set.u.col(0));
 }
 
 }  // namespace
 
-bool find_late_input(const FittedRecord& fit, DataIssues& findings) {
+bool find_late_input(const FittedData& fit, DataIssues& findings) {
     const Fit& found = fit.search.candidate.estimate;
     const bool at_zero = !found.at_bound.empty() && found.at_bound[static_cast<std::size_t>(found.theta.size() - 1)];
     if (fit.window.step > 1 || !((fit.trusted() && at_zero) || follows_later_inputs(fit, 0))) return false;
@@ -94,7 +94,7 @@ bool find_late_input(const FittedRecord& fit, DataIssues& findings) {
     return true;
 }
 
-bool find_exchange(const FittedRecord& fit, const std::function<bool()>& cancel, DataIssues& findings) {
+bool find_exchange(const FittedData& fit, const std::function<bool()>& cancel, DataIssues& findings) {
     const bool disturbed = wanders(fit.error);
     const double forward = std::max(fit.simulation.fit_percent, disturbed ? 100 * (1 - fit.movement_error) : 0.0);
     if (forward > kExplainsMost) return false;
@@ -103,7 +103,7 @@ bool find_exchange(const FittedRecord& fit, const std::function<bool()>& cancel,
         return false;
     const IdData turned = exchanged(fit.data);
     if (!may_be_exchanged(exchanged(fit.window.data), forward)) return false;
-    const std::optional<FittedRecord> backward = fitted_record(turned, cancel);
+    const std::optional<FittedData> backward = fitted_data(turned, cancel);
     if (!backward || !(backward->simulation.fit_percent > kExplainsHalf)) return false;
     if (!(100 - backward->simulation.fit_percent < kMuchBetter * (100 - forward))) return false;
     findings.push_back(about(fit, "causality", Weight::kWarning,

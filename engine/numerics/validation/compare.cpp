@@ -18,28 +18,28 @@ namespace {
 using Channels = std::span<const TransferFunction>;  // of one output, one per input
 
 // One output of one experiment; t is empty when sampled regularly.
-struct ComparedRecord {
+struct ComparedData {
     const Matrix& u;
     VectorView y, t;
     double Ts;
     Hold hold;
 };
 
-Vector simulate(const ComparedRecord& record, const TransferFunction& G, const VectorView& u, const VectorView& x0) {
-    return record.Ts > 0 ? lsim(G, u, record.Ts, record.hold, x0)
-                         : lsim(G, u, record.t.head(u.size()), record.hold, x0);
+Vector simulate(const ComparedData& data_set, const TransferFunction& G, const VectorView& u, const VectorView& x0) {
+    return data_set.Ts > 0 ? lsim(G, u, data_set.Ts, data_set.hold, x0)
+                           : lsim(G, u, data_set.t.head(u.size()), data_set.hold, x0);
 }
 
 // Response from rest at zero input, or at the first input values, over the first `rows` samples.
-Vector driven_response(const ComparedRecord& record, Channels channels, InitialState state, Index rows) {
+Vector driven_response(const ComparedData& data_set, Channels channels, InitialState state, Index rows) {
     Vector response;
-    for (Index j = 0; j < record.u.cols(); ++j) {
+    for (Index j = 0; j < data_set.u.cols(); ++j) {
         const TransferFunction& G = channels[static_cast<std::size_t>(j)];
         const double gain = G.dc_gain();
-        const double resting = state == InitialState::kZero || !std::isfinite(gain) ? 0 : record.u(0, j);
-        const auto u = record.u.col(j).head(rows);
+        const double resting = state == InitialState::kZero || !std::isfinite(gain) ? 0 : data_set.u(0, j);
+        const auto u = data_set.u.col(j).head(rows);
         Vector share =
-            resting == 0 ? simulate(record, G, u, Vector()) : simulate(record, G, u.array() - resting, Vector());
+            resting == 0 ? simulate(data_set, G, u, Vector()) : simulate(data_set, G, u.array() - resting, Vector());
         if (resting != 0) share.array() += gain * resting;
         if (j == 0)
             response = std::move(share);
@@ -67,14 +67,14 @@ Index free_order(Channels channels) {
     return n;
 }
 
-Matrix free_motions(const ComparedRecord& record, Channels channels, Index rows) {
+Matrix free_motions(const ComparedData& data_set, Channels channels, Index rows) {
     Matrix motions(rows, free_order(channels));
     Index column = 0;
     for (const TransferFunction* G : free_systems(channels)) {
         const Index n = G->pole_count();
         const TransferFunction poles(Vector::Ones(1), G->den(), G->Ts());
         for (Index i = 0; i < n; ++i)
-            motions.col(column++) = simulate(record, poles, Vector::Zero(rows), Vector::Unit(n, i));
+            motions.col(column++) = simulate(data_set, poles, Vector::Zero(rows), Vector::Unit(n, i));
     }
     return motions;
 }
@@ -96,18 +96,18 @@ bool has_decayed(const Matrix& motions) {
         .all();
 }
 
-Beginning beginning(const ComparedRecord& record, Channels channels) {
-    const Index N = record.y.size();
+Beginning beginning(const ComparedData& data_set, Channels channels) {
+    const Index N = data_set.y.size();
     Index late = 0;  // samples until the slowest channel begins to answer
     for (const TransferFunction& G : channels)
-        if (record.Ts > 0) late = std::max(late, static_cast<Index>(std::min(G.delay() / record.Ts + 2, 1e9)));
+        if (data_set.Ts > 0) late = std::max(late, static_cast<Index>(std::min(G.delay() / data_set.Ts + 2, 1e9)));
     Beginning start;
     for (Index reach = 1024;; reach *= 4) {
-        const Index rows = record.Ts > 0 ? std::min(N, late + reach) : N;
-        start.motions = free_motions(record, channels, std::min(rows, reach));
+        const Index rows = data_set.Ts > 0 ? std::min(N, late + reach) : N;
+        start.motions = free_motions(data_set, channels, std::min(rows, reach));
         if (rows < N && !has_decayed(start.motions)) continue;
-        if (start.motions.rows() < rows) start.motions = free_motions(record, channels, rows);
-        start.steady = driven_response(record, channels, InitialState::kSteady, rows);
+        if (start.motions.rows() < rows) start.motions = free_motions(data_set, channels, rows);
+        start.steady = driven_response(data_set, channels, InitialState::kSteady, rows);
         return start;
     }
 }
@@ -117,12 +117,12 @@ struct Remainder {
     double count = 0, mean = 0, squares = 0;
 };
 
-Remainder remainder_of(const ComparedRecord& record, const Vector& response, Index first) {
+Remainder remainder_of(const ComparedData& data_set, const Vector& response, Index first) {
     constexpr Index kBlock = 2048;
     Remainder sums;
     for (Index k = first; k < response.size(); k += kBlock) {
         const Index rows = std::min(kBlock, response.size() - k);
-        const auto errors = (record.y.segment(k, rows) - response.segment(k, rows)).eval();
+        const auto errors = (data_set.y.segment(k, rows) - response.segment(k, rows)).eval();
         const double count = static_cast<double>(rows), mean = errors.mean(), step = mean - sums.mean;
         const double together = sums.count + count;
         sums.squares += (errors.array() - mean).square().sum() + step * step * sums.count * count / together;
@@ -141,7 +141,7 @@ struct StartCandidate {
 
 // Values that all start conditions of one experiment share.
 struct StartSearch {
-    const ComparedRecord& record;
+    const ComparedData& data_set;
     Channels channels;
     Vector response;  // from rest at zero input
     Beginning start;
@@ -157,14 +157,14 @@ struct StartSearch {
     }
 };
 
-StartSearch start_search(const ComparedRecord& record, Channels channels, const std::vector<StartCondition>& all) {
-    StartSearch search{record, channels, driven_response(record, channels, InitialState::kZero, record.y.size()),
-                       {},     {},       0};
+StartSearch start_search(const ComparedData& data_set, Channels channels, const std::vector<StartCondition>& all) {
+    StartSearch search{data_set, channels, driven_response(data_set, channels, InitialState::kZero, data_set.y.size()),
+                       {},       {},       0};
     const bool past =
         std::any_of(all.begin(), all.end(), [](const StartCondition& one) { return one.state != InitialState::kZero; });
-    if (past) search.start = beginning(record, channels);
-    search.rest = remainder_of(record, search.response, search.start.rows());
-    search.power = record.y.squaredNorm() / static_cast<double>(record.y.size());
+    if (past) search.start = beginning(data_set, channels);
+    search.rest = remainder_of(data_set, search.response, search.start.rows());
+    search.power = data_set.y.squaredNorm() / static_cast<double>(data_set.y.size());
     return search;
 }
 
@@ -183,14 +183,14 @@ StartEquations start_equations(const StartSearch& search, const StartCondition& 
         equations.regressors.col(n).head(rows).setOnes();
         equations.regressors(rows, n) = weight;
     }
-    equations.errors.head(rows) = search.record.y.head(rows) - search.first_response(condition);
+    equations.errors.head(rows) = search.data_set.y.head(rows) - search.first_response(condition);
     equations.errors.tail(2) << weight * search.rest.mean, std::sqrt(search.rest.squares);
     return equations;
 }
 
 StartCandidate candidate(const StartSearch& search, const StartCondition& condition) {
     StartCandidate found{condition, {}, 0, std::numeric_limits<double>::infinity()};
-    const Index N = search.record.y.size(), n = search.values(condition), d = n + (condition.offset ? 1 : 0);
+    const Index N = search.data_set.y.size(), n = search.values(condition), d = n + (condition.offset ? 1 : 0);
     const StartEquations equations = start_equations(search, condition);
     if (!equations.regressors.allFinite() || !equations.errors.allFinite()) return found;  // an unstable model
     double squares = equations.errors.squaredNorm();
@@ -218,16 +218,16 @@ struct Compared {
     double squares = 0, variation = 0;  // of the errors, and of the outputs about their mean
 };
 
-CompareResult compare_centered(const ComparedRecord& record, Channels channels, const CompareOptions& options) {
-    const Index N = record.y.size(), order = free_order(channels);
-    const auto conditions = start_conditions(record.u, options.initial_state, options.offset);
+CompareResult compare_centered(const ComparedData& data_set, Channels channels, const CompareOptions& options) {
+    const Index N = data_set.y.size(), order = free_order(channels);
+    const auto conditions = start_conditions(data_set.u, options.initial_state, options.offset);
     const auto values = [order](const StartCondition& condition) {
         return (condition.state == InitialState::kEstimate ? order : 0) + (condition.offset ? 1 : 0);
     };
     if (const Index d = values(conditions.front()); d > 0 && N <= d)
         throw InvalidArgument("compare needs more samples than the {} values it estimates, but the data have {}",
                               plural(d, "{} value", "{} values"), N);
-    StartSearch search = start_search(record, channels, conditions);
+    StartSearch search = start_search(data_set, channels, conditions);
     StartCandidate best = candidate(search, conditions.front());
     for (std::size_t i = 1; i < conditions.size(); ++i) {
         const bool estimated = conditions[i].state == InitialState::kEstimate;
@@ -238,23 +238,23 @@ CompareResult compare_centered(const ComparedRecord& record, Channels channels, 
     return {simulated_output(search, best), 0, best.condition, best.initial_values, best.offset, {}};
 }
 
-Compared compare_record(const ComparedRecord& record, Channels channels, const CompareOptions& options) {
+Compared compare_data(const ComparedData& data_set, Channels channels, const CompareOptions& options) {
     Compared compared;
     CompareResult& result = compared.result;
     double removed_output = 0;
     if (options.offset == Offset::kRemove) {
-        const JointOperatingPoint removed = joint_operating_point(record.u, record.y);
-        const Matrix u = record.u.rowwise() - removed.inputs.transpose();
-        const Vector y = record.y.array() - removed.output;
-        result = compare_centered({u, y, record.t, record.Ts, record.hold}, channels, options);
+        const JointOperatingPoint removed = joint_operating_point(data_set.u, data_set.y);
+        const Matrix u = data_set.u.rowwise() - removed.inputs.transpose();
+        const Vector y = data_set.y.array() - removed.output;
+        result = compare_centered({u, y, data_set.t, data_set.Ts, data_set.hold}, channels, options);
         removed_output = removed.output;
         result.output.array() += removed_output;
     } else {
-        result = compare_centered(record, channels, options);
+        result = compare_centered(data_set, channels, options);
     }
     result.offset += removed_output;
-    compared.squares = (record.y - result.output).squaredNorm();
-    compared.variation = variation_about_mean(record.y);
+    compared.squares = (data_set.y - result.output).squaredNorm();
+    compared.variation = variation_about_mean(data_set.y);
     result.fit_percent = fit_percent_of_sums(compared.squares, compared.variation);
     result.message = Message("Simulated {}: fit {} %.", description(result.start), significant(result.fit_percent, 4));
     return compared;
@@ -284,8 +284,8 @@ Comparison compare_all(const IdData& data, const std::vector<TransferFunction>& 
         auto& row = all.results.emplace_back();
         for (Index i = 0; i < ny; ++i) {
             const Channels own(channels.data() + i * nu, static_cast<std::size_t>(nu));
-            const ComparedRecord record{experiment.u, experiment.y.col(i), experiment.t, data.Ts, data.hold};
-            Compared compared = compare_record(record, own, options);
+            const ComparedData data_set{experiment.u, experiment.y.col(i), experiment.t, data.Ts, data.hold};
+            Compared compared = compare_data(data_set, own, options);
             squares[i] += compared.squares;
             variation[i] += compared.variation;
             row.push_back(std::move(compared.result));

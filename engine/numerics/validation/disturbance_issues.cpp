@@ -36,7 +36,7 @@ Vector slow_part(const Vector& x) {
 }
 
 /// The error without a free motion from before the first sample, which could look like a disturbance.
-Vector error_without_free_motion(const FittedRecord& fit) {
+Vector error_without_free_motion(const FittedData& fit) {
     if (fit.simulation.start.state != InitialState::kEstimate) return fit.error;
     Vector best;
     for (const InitialState state : {InitialState::kZero, InitialState::kSteady}) {
@@ -83,7 +83,7 @@ std::optional<RepairedSignal> isolated_outliers(const Vector& error, double devi
 }
 
 /// Outliers can hide the response on which they lie: then a model is fitted to the data without them.
-std::optional<RepairedSignal> outliers_of(FittedRecord& fit, const std::function<bool()>& cancel) {
+std::optional<RepairedSignal> outliers_of(FittedData& fit, const std::function<bool()>& cancel) {
     constexpr double kMuch = 0.3;  // of the error's power
     const double deviation = fit.deviation();
     std::optional<RepairedSignal> found = isolated_outliers(fit.error, deviation);
@@ -91,7 +91,7 @@ std::optional<RepairedSignal> outliers_of(FittedRecord& fit, const std::function
         return fit.trusted() ? found : std::nullopt;
     IdData cleaned = fit.data;
     cleaned.experiments.front().y.col(0) -= fit.error - found->signal;
-    std::optional<FittedRecord> again = fitted_record(cleaned, cancel);
+    std::optional<FittedData> again = fitted_data(cleaned, cancel);
     if (!again || !again->trusted()) return fit.trusted() ? found : std::nullopt;
     const Vector y = fit.y();
     fit = std::move(*again);
@@ -101,7 +101,7 @@ std::optional<RepairedSignal> outliers_of(FittedRecord& fit, const std::function
 
 }  // namespace
 
-void find_error_outliers(FittedRecord& fit, const std::function<bool()>& cancel, DataIssues& findings) {
+void find_error_outliers(FittedData& fit, const std::function<bool()>& cancel, DataIssues& findings) {
     const std::optional<RepairedSignal> repaired = outliers_of(fit, cancel);
     if (!repaired) return;
     const auto count = static_cast<Index>(repaired->replaced.size());
@@ -119,7 +119,7 @@ void find_error_outliers(FittedRecord& fit, const std::function<bool()>& cancel,
     findings.push_back(std::move(issue));
 }
 
-void find_disturbance(FittedRecord& fit, DataIssues& findings) {
+void find_disturbance(FittedData& fit, DataIssues& findings) {
     if (!wanders(fit.error)) return;
     Vector slow = slow_part(error_without_free_motion(fit));
     slow.array() -= slow.mean();
@@ -188,7 +188,7 @@ bool is_at_the_beginning(const Segment& section) {
 
 }  // namespace
 
-bool find_strange_sections(const FittedRecord& fit, DataIssues& findings) {
+bool find_strange_sections(const FittedData& fit, DataIssues& findings) {
     if (fit.error.size() < 10 * kSlowParts) return false;
     std::vector<Segment> sections = strange_sections(fit.error - slow_part(fit.error), fit.deviation());
     std::erase_if(sections, is_at_the_beginning);
@@ -207,7 +207,7 @@ bool find_strange_sections(const FittedRecord& fit, DataIssues& findings) {
     return true;
 }
 
-bool has_strange_beginning(const FittedRecord& fit) {
+bool has_strange_beginning(const FittedData& fit) {
     const std::vector<Segment> sections = strange_sections(fit.error, fit.deviation());
     if (!sections.empty() && is_at_the_beginning(sections.front())) return true;
     const auto masked_seconds = static_cast<Index>(2 * fit.search.delay / fit.data.Ts);

@@ -32,7 +32,7 @@ constexpr double kIntegrates = 0.5;       // of the simulated movement
 
 /// rad/s up to which the output responds: where the gain is 3 dB below its steady value, or of a band-pass below its
 /// peak. Not finite if the data show no such edge, as with an integrator.
-double band_edge(const FittedRecord& fit) {
+double band_edge(const FittedData& fit) {
     const TransferFunction& G = fit.model();
     const Vector w = natural_frequency_grid(G);
     const Vector gain = frequency_response(G, w).cwiseAbs();
@@ -46,7 +46,7 @@ double band_edge(const FittedRecord& fit) {
 }
 
 /// The real pole of the longest time constant, if that is longer than the window.
-std::optional<double> slowest_pole(const FittedRecord& fit) {
+std::optional<double> slowest_pole(const FittedData& fit) {
     const double duration = static_cast<double>(fit.window.data.sample_count()) * fit.window.data.Ts;
     std::optional<double> slowest;
     for (const Complex pole : fit.model().poles())
@@ -76,7 +76,7 @@ Index samples_at_rest(const VectorView& u) {
 
 /// The output level while the input is zero at the beginning, if the output is constant there and the level exceeds the
 /// uncertainty of single samples.
-std::optional<double> level_at_rest(const FittedRecord& fit) {
+std::optional<double> level_at_rest(const FittedData& fit) {
     const Index count = samples_at_rest(fit.u());
     if (count < kFewestAtRest) return std::nullopt;
     const Vector y = fit.y().head(count);
@@ -99,7 +99,7 @@ double independent_errors(const Vector& error) {
 }
 
 /// Whether one more pole instead of the delay is nearly as good.
-bool may_be_a_lag(const FittedRecord& fit) {
+bool may_be_a_lag(const FittedData& fit) {
     constexpr double kNearly = 10;  // of N log of losses
     FitOptions options = FitOptions().started({InitialState::kEstimate, true});
     options.tolerance = 1e-3;
@@ -122,7 +122,7 @@ bool may_be_a_lag(const FittedRecord& fit) {
 
 /// rad/s, root mean square: a chirp or a slow multisine does not show what the plant does far beyond. One that jumps
 /// has all frequencies.
-double input_frequency(const FittedRecord& fit) {
+double input_frequency(const FittedData& fit) {
     const VectorView u = fit.u();
     const Index count = u.size() - 1;
     const Vector steps = u.tail(count) - u.head(count);
@@ -143,7 +143,7 @@ bool excludes_zero(const VectorView& u) {
 
 }  // namespace
 
-void find_noise(const FittedRecord& fit, DataIssues& findings) {
+void find_noise(const FittedData& fit, DataIssues& findings) {
     const double error = fit.error.squaredNorm() / static_cast<double>(fit.error.size());
     const double total = std::pow(fit.deviation(), 2);
     if (error <= 1e-20 * total) return;
@@ -171,7 +171,7 @@ void find_noise(const FittedRecord& fit, DataIssues& findings) {
                   decibels));
 }
 
-void find_dead_time(const FittedRecord& fit, DataIssues& findings) {
+void find_dead_time(const FittedData& fit, DataIssues& findings) {
     const double delay = fit.search.delay, Ts = fit.data.Ts;
     if (!(delay > Ts) || !(delay > 4 * fit.search.std)) return;
     const Message seen =
@@ -188,7 +188,7 @@ void find_dead_time(const FittedRecord& fit, DataIssues& findings) {
     findings.push_back(about(fit, "dead_time", Weight::kNote, sentences({seen, remedy}), delay));
 }
 
-void find_offset(const FittedRecord& fit, DataIssues& findings) {
+void find_offset(const FittedData& fit, DataIssues& findings) {
     const double deviation = fit.deviation(), offset = fit.simulation.offset;
     const double least = std::max({kOffset * deviation, 3 * fit.disturbance, 4 * error_of_mean(fit.error)});
     if (!fit.simulation.start.offset || std::abs(offset) < least) {
@@ -224,7 +224,7 @@ namespace {
 
 /// The free motion from before the first sample; zero without one, and if the motion and the offset are large only to
 /// cancel each other.
-Vector free_motion(const FittedRecord& fit) {
+Vector free_motion(const FittedData& fit) {
     constexpr double kNoSense = 20;  // standard deviations of the output
     const CompareResult& simulated = fit.simulation;
     if (simulated.start.state != InitialState::kEstimate || simulated.initial_values.size() == 0) return {};
@@ -237,7 +237,7 @@ Vector free_motion(const FittedRecord& fit) {
 /// How much of such a motion a fit finds in the error further on, where none can begin: the root mean square of its
 /// factors. Errors with a memory, of drift or of what is not linear, are taken for motions anywhere; and what a fit
 /// took for a motion at the beginning is no part of the disturbance that was taken off.
-double found_elsewhere(const Vector& motion, const FittedRecord& fit) {
+double found_elsewhere(const Vector& motion, const FittedData& fit) {
     const Vector error = fit.taken_off.size() > 0 ? Vector(fit.error + fit.taken_off) : fit.error;
     constexpr double kOver = 0.05;  // of the largest value
     Index length = motion.size();
@@ -256,7 +256,7 @@ namespace {
 
 /// Whether the free motion explains more than errors that follow each other imitate: the gain in N log of the sum of
 /// squares over the best start from rest, with as many samples as white errors of the same power at low frequencies.
-bool start_is_evident(const FittedRecord& fit) {
+bool start_is_evident(const FittedData& fit) {
     constexpr double kEvident = 30;
     double rest = kInfinity;
     for (const InitialState state : {InitialState::kZero, InitialState::kSteady}) {
@@ -268,7 +268,7 @@ bool start_is_evident(const FittedRecord& fit) {
 
 }  // namespace
 
-void find_running_start(const FittedRecord& fit, DataIssues& findings) {
+void find_running_start(const FittedData& fit, DataIssues& findings) {
     const Vector motion = free_motion(fit);
     const double largest = motion.size() > 0 ? motion.cwiseAbs().maxCoeff() : 0, error = standard_deviation(fit.error);
     const bool moves =
@@ -288,7 +288,7 @@ void find_running_start(const FittedRecord& fit, DataIssues& findings) {
     findings.push_back(about(fit, "running_start", Weight::kWarning, message, largest));
 }
 
-void find_sampling_rate(const FittedRecord& fit, DataIssues& findings) {
+void find_sampling_rate(const FittedData& fit, DataIssues& findings) {
     const double band = band_edge(fit);
     if (!std::isfinite(band)) return;
     const double ratio = 2 * std::numbers::pi / (fit.data.Ts * band);
@@ -311,7 +311,7 @@ void find_sampling_rate(const FittedRecord& fit, DataIssues& findings) {
             ratio));
 }
 
-void find_integrator(const FittedRecord& fit, DataIssues& findings) {
+void find_integrator(const FittedData& fit, DataIssues& findings) {
     const std::optional<double> pole = slowest_pole(fit);
     if (!pole) return;
     const TransferFunction slow = part_of_pole(fit.model(), *pole);
@@ -355,9 +355,9 @@ std::optional<LoadedIntegrator> loaded_integrator(const IdData& data) {
         }
     if (!best) return std::nullopt;
     const TransferFunction& G = best->models.front();
-    const Experiment& record = integrated.experiments.front();
-    const Vector y = record.y.col(0);
-    const Vector rest = y - lsim(G, record.u.col(0), data.Ts, integrated.hold);
+    const Experiment& data_set = integrated.experiments.front();
+    const Vector y = data_set.y.col(0);
+    const Vector rest = y - lsim(G, data_set.u.col(0), data.Ts, integrated.hold);
     if (!rest.allFinite()) return std::nullopt;
     Matrix line(y.size(), 2);
     line.col(0).setOnes();
@@ -371,7 +371,7 @@ std::optional<LoadedIntegrator> loaded_integrator(const IdData& data) {
 
 }  // namespace
 
-bool find_load(const FittedRecord& fit, DataIssues& findings) {
+bool find_load(const FittedData& fit, DataIssues& findings) {
     constexpr double kExplains = 0.3, kAsWell = 1.15, kVisible = 0.3;
     const IdData& window = fit.window.data;
     const bool doubtful = slowest_pole(fit) || fit.runs_away() || wanders(fit.error) ||

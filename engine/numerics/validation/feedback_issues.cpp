@@ -124,7 +124,7 @@ Message remedy_for_feedback(const Experiment& experiment) {
 
 }  // namespace
 
-void find_feedback(const FittedRecord& fit, DataIssues& findings) {
+void find_feedback(const FittedData& fit, DataIssues& findings) {
     const Index first = fit.window.first, count = std::min<Index>(fit.error.size() - first, kMostFeedbackSamples);
     if (count < 20 * kInputMemory) return;
     const Vector u = fit.u().segment(first, count);
@@ -154,7 +154,7 @@ void find_feedback(const FittedRecord& fit, DataIssues& findings) {
                              sentences({seen, remedy_for_feedback(fit.data.experiments.front())}), largest));
 }
 
-bool find_runaway(const FittedRecord& fit, DataIssues& findings) {
+bool find_runaway(const FittedData& fit, DataIssues& findings) {
     if (!fit.runs_away()) return false;
     findings.push_back(
         about(fit, "unstable", Weight::kWarning,

@@ -42,7 +42,7 @@ ModelAdvice model_advice(const IdData& data, const std::function<bool()>& cancel
     }
     IdData first = data;
     first.experiments.resize(1);
-    std::optional<FittedRecord> fit = fitted_record(first, cancel);
+    std::optional<FittedData> fit = fitted_data(first, cancel);
     if (!fit) return advice;
     const bool answered_backwards = find_exchange(*fit, cancel, findings);
     if (answered_backwards && !fit->runs_away()) return advice;

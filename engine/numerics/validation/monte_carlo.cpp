@@ -44,9 +44,9 @@ Outcome outcome_of(const MonteCarloMethod& method, const IdData& data) {
 }
 
 /// The components of the data of a study: the noise-free data, and how the noise enters.
-class NoisyRecords {
+class NoisyData {
   public:
-    explicit NoisyRecords(const MonteCarloStudy& study) : r_(study.u), Ts_(study.Ts), hold_(study.hold) {
+    explicit NoisyData(const MonteCarloStudy& study) : r_(study.u), Ts_(study.Ts), hold_(study.hold) {
         if (!study.controller) {
             clean_ = {study.u, lsim(study.system, study.u, study.Ts, study.hold)};
         } else {
@@ -60,13 +60,13 @@ class NoisyRecords {
     }
 
     const Vector& noise_free_output() const { return clean_.x; }
-    IdData empty_record() const {
-        IdData record(Matrix(clean_.x), Matrix(clean_.u), Ts_);
-        record.hold = hold_;
-        return loop_ ? record.with_reference(Matrix(r_)) : record;
+    IdData empty_data() const {
+        IdData data_set(Matrix(clean_.x), Matrix(clean_.u), Ts_);
+        data_set.hold = hold_;
+        return loop_ ? data_set.with_reference(Matrix(r_)) : data_set;
     }
-    void draw(RandomStream& random, double sigma, IdData& record) const {
-        Experiment& one = record.experiments.front();
+    void draw(RandomStream& random, double sigma, IdData& data_set) const {
+        Experiment& one = data_set.experiments.front();
         Vector v(one.y.rows());
         for (double& value : v) value = sigma * random.normal();
         one.y.col(0) = clean_.x + v;
@@ -89,11 +89,11 @@ class NoisyRecords {
 class Runner {
   public:
     /// Of `count` runs from `first` on.
-    Runner(const MonteCarloStudy& study, const std::vector<MonteCarloMethod>& methods, const NoisyRecords& records,
+    Runner(const MonteCarloStudy& study, const std::vector<MonteCarloMethod>& methods, const NoisyData& noisy_data,
            double sigma, std::size_t first, std::size_t count)
         : study_(study),
           methods_(methods),
-          records_(records),
+          noisy_data_(noisy_data),
           sigma_(sigma),
           first_(static_cast<int>(first)),
           runs_(count, MonteCarloRun{std::vector<Outcome>(methods.size())}) {}
@@ -101,8 +101,8 @@ class Runner {
     void run() {
         if (any(true)) run_concurrently();
         if (!any(false)) return;
-        IdData record = records_.empty_record();
-        for (int k = first_; k < end(); ++k) one_run(k, false, record);
+        IdData data_set = noisy_data_.empty_data();
+        for (int k = first_; k < end(); ++k) one_run(k, false, data_set);
     }
 
     std::vector<MonteCarloRun> take() { return std::move(runs_); }
@@ -116,7 +116,7 @@ class Runner {
     }
 
     void run_concurrently() {
-        tbb::enumerable_thread_specific<IdData> records([this] { return records_.empty_record(); });
+        tbb::enumerable_thread_specific<IdData> noisy_data([this] { return noisy_data_.empty_data(); });
         tbb::task_arena arena(thread_count(study_.threads));
         arena.execute([&] {
             tbb::parallel_for(
@@ -124,19 +124,19 @@ class Runner {
                 [&](const tbb::blocked_range<int>& runs) {
                     // A nested parallel loop of a method must not start another run that uses this thread's data.
                     for (int k = runs.begin(); k < runs.end(); ++k)
-                        tbb::this_task_arena::isolate([&] { one_run(k, true, records.local()); });
+                        tbb::this_task_arena::isolate([&] { one_run(k, true, noisy_data.local()); });
                 },
                 tbb::simple_partitioner());
         });
     }
 
-    void one_run(int k, bool concurrent, IdData& record) {
+    void one_run(int k, bool concurrent, IdData& data_set) {
         if (asked_to_stop()) return;
         RandomStream random(study_.seed + static_cast<std::uint32_t>(k));
-        records_.draw(random, sigma_, record);
+        noisy_data_.draw(random, sigma_, data_set);
         for (std::size_t j = 0; j < methods_.size(); ++j) {
             if (methods_[j].concurrent != concurrent) continue;
-            Outcome outcome = outcome_of(methods_[j], record);
+            Outcome outcome = outcome_of(methods_[j], data_set);
             if (asked_to_stop()) return;  // the method may have been stopped half way
             runs_[static_cast<std::size_t>(k - first_)].outcomes[j] = std::move(outcome);
             report_progress();
@@ -158,7 +158,7 @@ class Runner {
 
     const MonteCarloStudy& study_;
     const std::vector<MonteCarloMethod>& methods_;
-    const NoisyRecords& records_;
+    const NoisyData& noisy_data_;
     double sigma_;
     int first_;
     std::vector<MonteCarloRun> runs_;
@@ -294,15 +294,15 @@ Vector MonteCarloResult::least_spread() const {
 MonteCarlo monte_carlo(const MonteCarloStudy& study, const std::vector<MonteCarloMethod>& methods) {
     study.validate();
     check_methods(methods);
-    const NoisyRecords records(study);
-    const double scale = standard_deviation(records.noise_free_output());
+    const NoisyData noisy_data(study);
+    const double scale = standard_deviation(noisy_data.noise_free_output());
     if (study.snr && !(scale > 0)) throw InvalidArgument("snr needs a noise-free output that changes; specify sigma");
     MonteCarlo all;
     all.runs = study.runs;
     all.sigma = study.sigma ? *study.sigma : scale * std::pow(10.0, -*study.snr / 20);
     all.snr = 20 * std::log10(scale / all.sigma);
     const auto some = [&](std::size_t first, std::size_t count) {
-        Runner runner(study, methods, records, all.sigma, first, count);
+        Runner runner(study, methods, noisy_data, all.sigma, first, count);
         runner.run();
         all.canceled = all.canceled || runner.canceled();
         return runner.take();

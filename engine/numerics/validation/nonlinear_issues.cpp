@@ -87,12 +87,12 @@ Index spacing_of(const Vector& x) {
 }
 
 /// The simulated response to w, from rest at its first value.
-Vector response_to(const FittedRecord& fit, const Vector& w) {
+Vector response_to(const FittedData& fit, const Vector& w) {
     const IdData& window = fit.window.data;
     return lsim(fit.model(), w.array() - w[0], window.Ts, window.hold);
 }
 
-NonlinearRegression nonlinear_regression(const FittedRecord& fit) {
+NonlinearRegression nonlinear_regression(const FittedData& fit) {
     const IdData& window = fit.window.data;
     const Vector u = window.experiments.front().u.col(0);
     const Vector x = response_to(fit, u);
@@ -205,7 +205,7 @@ double effect_of(const NonlinearRegression& regression, const Family& family) {
 }
 
 /// Slopes of the broken line y = f(x) through the window, by least squares, over the parts between the thresholds.
-Vector slopes_of_curve(const FittedRecord& fit) {
+Vector slopes_of_curve(const FittedData& fit) {
     const IdData& window = fit.window.data;
     const Vector x = response_to(fit, window.experiments.front().u.col(0));
     const std::vector<Vector> lines = broken_lines(x);
@@ -234,7 +234,7 @@ Number in_percent(double effect) {
     return rounded(100 * effect, 1);
 }
 
-DataIssue curve_at_output(const FittedRecord& fit, double effect) {
+DataIssue curve_at_output(const FittedData& fit, double effect) {
     if (runs_into_a_limit(slopes_of_curve(fit))) {
         return about(fit, "saturation", Weight::kWarning,
                      Message("{} flattens while a linear model continues to rise: the signal saturates at a limit that "
@@ -251,7 +251,7 @@ DataIssue curve_at_output(const FittedRecord& fit, double effect) {
                  effect);
 }
 
-DataIssue nonlinear_finding(const FittedRecord& fit, Curve kind, double effect) {
+DataIssue nonlinear_finding(const FittedData& fit, Curve kind, double effect) {
     switch (kind) {
         case Curve::kInput:
             return about(
@@ -292,7 +292,7 @@ DataIssue nonlinear_finding(const FittedRecord& fit, Curve kind, double effect) 
 
 }  // namespace
 
-bool gain_explains_error(const FittedRecord& fit) {
+bool gain_explains_error(const FittedData& fit) {
     constexpr double kMostOfIt = 0.7;
     const Vector& x = fit.simulation.output;
     const Vector t = Vector::LinSpaced(x.size(), -1, 1);
@@ -303,7 +303,7 @@ bool gain_explains_error(const FittedRecord& fit) {
     return solve_least_squares(columns, fit.error).residuals.squaredNorm() < (1 - kMostOfIt) * line;
 }
 
-void find_nonlinearity(const FittedRecord& fit, DataIssues& findings) {
+void find_nonlinearity(const FittedData& fit, DataIssues& findings) {
     const NonlinearRegression regression = nonlinear_regression(fit);
     if (!regression.columns.allFinite()) return;
     const CheckOutcome verdict = best_family(regression);

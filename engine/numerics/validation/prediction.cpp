@@ -47,19 +47,19 @@ Vector unforeseen(const Vector& errors, const Vector& h) {
 }
 
 /// One output: what is known of it before its fit.
-struct OutputRecords {
+struct OutputSignals {
     std::vector<Vector> measured, simulated, errors;  // N each; simulated: before `first` the measured ones
     std::vector<Index> first;
 };
 
 /// Adds one output to the predictions.
-void add_output(Predictions& all, const OutputRecords& records, const NoisyModel& model,
+void add_output(Predictions& all, const OutputSignals& output_signals, const NoisyModel& model,
                 const std::optional<Index>& steps) {
     double squares = 0, variation = 0, error_squares = 0, count = 0;
-    for (std::size_t k = 0; k < records.measured.size(); ++k) {
-        const Vector& y = records.measured[k];
-        const Index first = records.first[k], rows = y.size() - first;
-        PredictedOutput own{records.simulated[k], records.errors[k], first, 0};
+    for (std::size_t k = 0; k < output_signals.measured.size(); ++k) {
+        const Vector& y = output_signals.measured[k];
+        const Index first = output_signals.first[k], rows = y.size() - first;
+        PredictedOutput own{output_signals.simulated[k], output_signals.errors[k], first, 0};
         if (steps && *steps < y.size() && model.has_noise_model())
             own.output = y - unforeseen(own.errors, noise_impulse_response(model, *steps));
         const double own_squares = (y - own.output).tail(rows).squaredNorm();
@@ -171,7 +171,7 @@ Predictions predict_difference_equation(const IdData& data, const NoisyModel& mo
     check_invertible(model.polynomial->C, model.polynomial->D);
     const CenteredData centered = centered_for(data, options.start.offset);
     const StartedPrediction best = best_start(centered.data, ordered, options.start);
-    OutputRecords records;
+    OutputSignals output_signals;
     Index place = 0;
     for (std::size_t k = 0; k < data.experiments.size(); ++k) {
         const Vector y = data.experiments[k].y.col(0);
@@ -181,13 +181,13 @@ Predictions predict_difference_equation(const IdData& data, const NoisyModel& mo
         errors.tail(rows) = best.errors.segment(place, rows);
         simulated.tail(rows) = best.simulated.segment(place, rows).array() + level;
         place += rows;
-        records.measured.push_back(y);
-        records.errors.push_back(std::move(errors));
-        records.simulated.push_back(std::move(simulated));
-        records.first.push_back(y.size() - rows);
+        output_signals.measured.push_back(y);
+        output_signals.errors.push_back(std::move(errors));
+        output_signals.simulated.push_back(std::move(simulated));
+        output_signals.first.push_back(y.size() - rows);
     }
     Predictions all = without_results(data);
-    add_output(all, records, model, options.steps);
+    add_output(all, output_signals, model, options.steps);
     all.message = sentence(all, model, options.steps, best.condition);
     return all;
 }
@@ -209,16 +209,16 @@ Predictions predict_from_simulation(const IdData& data, const NoisyModel& model,
     const ArmaNoise noise{model.C, model.D, {}};
     Predictions all = without_results(data);
     for (Index i = 0; i < data.output_count(); ++i) {
-        OutputRecords records;
+        OutputSignals output_signals;
         for (std::size_t k = 0; k < data.experiments.size(); ++k) {
             const Vector y = data.experiments[k].y.col(i);
             const Vector& simulated = comparison.results[k][static_cast<std::size_t>(i)].output;
-            records.measured.push_back(y);
-            records.simulated.push_back(simulated);
-            records.errors.push_back(whitened(noise, y - simulated));
-            records.first.push_back(std::min(model.D.size() - 1, y.size() - 1));
+            output_signals.measured.push_back(y);
+            output_signals.simulated.push_back(simulated);
+            output_signals.errors.push_back(whitened(noise, y - simulated));
+            output_signals.first.push_back(std::min(model.D.size() - 1, y.size() - 1));
         }
-        add_output(all, records, model, options.steps);
+        add_output(all, output_signals, model, options.steps);
     }
     all.message = sentence(all, model, options.steps, comparison.results.front().front().start);
     return all;

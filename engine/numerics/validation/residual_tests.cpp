@@ -71,7 +71,7 @@ struct QuadraticForm {
 
 // N r' P^-1 r in the directions that the input excites by more than one sample's power, r from N samples in one or
 // several experiments.
-QuadraticForm quadratic_form(const Vector& r, const Matrix& P, double N, double records) {
+QuadraticForm quadratic_form(const Vector& r, const Matrix& P, double N, double experiment_count) {
     const auto [values, vectors] = symmetric_eigen(P);
     const Vector along = vectors.transpose() * r;
     QuadraticForm form;
@@ -80,7 +80,8 @@ QuadraticForm quadratic_form(const Vector& r, const Matrix& P, double N, double 
         form.statistic += N * along[i] * along[i] / values[i];
         ++form.degrees;
     }
-    form.p_value = explained_part_upper_tail(form.statistic / N, static_cast<double>(form.degrees), N - records);
+    form.p_value =
+        explained_part_upper_tail(form.statistic / N, static_cast<double>(form.degrees), N - experiment_count);
     return form;
 }
 
@@ -158,13 +159,14 @@ IndependenceTest test_independence(const Signals& e, double variance, const Test
     test.correlation = r / std::sqrt(Re * Ru);
     test.bound = normal_half_width(options.confidence) * std::sqrt(g[0] / (N * Re * Ru));
     test.outside = (test.correlation.tail(lags + 1).cwiseAbs().array() > test.bound).count();
-    const auto records = static_cast<double>(e.size());
-    const QuadraticForm past = quadratic_form(r.tail(lags + 1), lagged_sum_covariance(g, own_Re, tested.u), N, records);
+    const auto experiment_count = static_cast<double>(e.size());
+    const QuadraticForm past =
+        quadratic_form(r.tail(lags + 1), lagged_sum_covariance(g, own_Re, tested.u), N, experiment_count);
     const Matrix ahead = lagged_sum_covariance(g, own_Re, backwards(tested.u)).bottomRightCorner(lags, lags);
     test.statistic = past.statistic;
     test.degrees = past.degrees;
     test.p_value = past.p_value;
-    test.p_value_future = quadratic_form(r.head(lags).reverse(), ahead, N, records).p_value;
+    test.p_value_future = quadratic_form(r.head(lags).reverse(), ahead, N, experiment_count).p_value;
     test.independent = test.p_value >= 1 - options.confidence;
     test.without_feedback = test.p_value_future >= 1 - options.confidence;
     test.verdict = independence_verdict(test, data);

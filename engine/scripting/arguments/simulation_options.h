@@ -42,10 +42,10 @@ inline constexpr OptionEntry kLabelsOption = {"labels", ValueKind::kAny,
 inline constexpr OptionEntry kConfidenceOption = {
     "confidence", ValueKind::kNumber, about("confidence level of the band"), {.initial = "0.99"}};
 
-inline constexpr ArgumentEntry kRecordArgument = {"data", ValueKind::kData,
-                                                  about("data object with the inputs and outputs of the model")};
+inline constexpr ArgumentEntry kDataSetArgument = {"data", ValueKind::kData,
+                                                   about("data object with the inputs and outputs of the model")};
 inline constexpr ArgumentEntry kModelArgument = {"G", ValueKind::kModel, about("model")};
-inline constexpr std::array kRecordAndModel = {kRecordArgument, kModelArgument};
+inline constexpr std::array kDataAndModel = {kDataSetArgument, kModelArgument};
 
 /// The options InitialState and Offset of functions that simulate a model on data.
 CompareOptions compare_options(const Options& options, InitialState otherwise = InitialState::kAuto);

@@ -96,9 +96,9 @@ int drive_crane(Call& call) {
         lua_pop(L, 1);
         return voltage;
     };
-    const CraneRecord record =
+    const CraneData data_set =
         control_crane({}, {}, run, controller, static_cast<std::uint32_t>(options.whole("seed", 1)));
-    return give_table(call, "t", record.t, "u", record.u, "x", record.x, "theta", record.theta);
+    return give_table(call, "t", data_set.t, "u", data_set.u, "x", data_set.x, "theta", data_set.theta);
 }
 
 constexpr FunctionEntry kControlFunctions[] = {

@@ -311,14 +311,14 @@ int motion(Call& call) {
     const Options options(call, 1, kMotionTables);
     if (call.context().options.graded) return give_figure(call, Figure(Panel()));  // there are no drawings, and no eyes
     const PlantDrawing plant = plant_drawing(options.text("rig", ""));
-    MotionRecord record;
-    record.t = options.vector("t");
-    record.measured = signals_of_parts(options, "measured", plant, record.t.size());
-    record.simulated = signals_of_parts(options, "simulated", plant, record.t.size());
+    MotionData motion_data;
+    motion_data.t = options.vector("t");
+    motion_data.measured = signals_of_parts(options, "measured", plant, motion_data.t.size());
+    motion_data.simulated = signals_of_parts(options, "simulated", plant, motion_data.t.size());
     MotionAppearance look;
     options.read(look);
     look.title = Message::verbatim(options.text("title", ""));
-    return give_figure(call, motion_plot(plant, record, look));
+    return give_figure(call, motion_plot(plant, motion_data, look));
 }
 
 int save(Call& call) {

@@ -151,11 +151,11 @@ bool is_list(const Call& call, int index) {
 }
 
 /// The validation data set, or nothing.
-const IdData* validation_record(const Options& options) {
+const IdData* validation_data(const Options& options) {
     if (!options.has("validate")) return nullptr;
-    const IdData* record = to_object<IdData>(options.call().state(), options.push("validate"));
-    if (record == nullptr) throw InvalidArgument("option 'validate' must be a data object");
-    return record;
+    const IdData* data_set = to_object<IdData>(options.call().state(), options.push("validate"));
+    if (data_set == nullptr) throw InvalidArgument("option 'validate' must be a data object");
+    return data_set;
 }
 
 int try_structures(Call& call) {
@@ -167,7 +167,7 @@ int try_structures(Call& call) {
     const std::vector<TransferStructure> structures = listed ? listed_structures(call, data) : grid_of(options, data);
     OrderSelectionOptions requested;
     options.read(requested);
-    requested.validation = validation_record(options);
+    requested.validation = validation_data(options);
     requested.cancel = call.cancel();
     requested.estimation = fit_options(options, Purpose::kModel);
     ProgressBar bar("order search", structures.size());
@@ -210,7 +210,7 @@ int try_arx_structures(Call& call) {
     ranges.na = range_of(options, "na", ranges.na);
     ranges.nb = range_of(options, "nb", ranges.nb);
     ranges.nk = range_of(options, "nk", ranges.nk);
-    push_object(call.state(), select_arx(data, ranges, validation_record(options)));
+    push_object(call.state(), select_arx(data, ranges, validation_data(options)));
     return 1;
 }
 

@@ -84,7 +84,7 @@ int plant(Call& call) {
     PlantChoice choice;
     Options(call, 2, kPlantTables).read(choice);
     const Plant& plant = plant_of(call);
-    give_values(call, plant.record(choice), plant.name);
+    give_values(call, plant.simulated_data(choice), plant.name);
     return 1;
 }
 

@@ -60,9 +60,9 @@ int predict_output(Call& call) {
 
 constexpr FunctionEntry kPredictionsFunctions[] = {
     {"predict", "validation", "predict(data, G, {options}) -> y, table", "Predict the output k steps ahead",
-     guarded<predict_output<false>>, kPredictionTables, kRecordAndModel},
+     guarded<predict_output<false>>, kPredictionTables, kDataAndModel},
     {"pe", "validation", "pe(data, G, {options}) -> e, table", "Compute prediction errors one or k steps ahead",
-     guarded<predict_output<true>>, kPredictionTables, kRecordAndModel},
+     guarded<predict_output<true>>, kPredictionTables, kDataAndModel},
 };
 
 }  // namespace

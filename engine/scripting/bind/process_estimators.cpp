@@ -62,12 +62,12 @@ int draw_construction(Call& call) {
                               argument_label(1, "G"));
     const StepTestResult& test = *model.estimate->step_test;
     StepConstruction construction;
-    construction.t = test.record.t;
-    construction.y = test.record.y;
-    construction.smoothed = test.record.smoothed;
-    construction.step_time = test.record.step_time;
-    construction.initial = test.record.initial.value;
-    construction.final = test.record.final.value;
+    construction.t = test.step_data.t;
+    construction.y = test.step_data.y;
+    construction.smoothed = test.step_data.smoothed;
+    construction.step_time = test.step_data.step_time;
+    construction.initial = test.step_data.initial.value;
+    construction.final = test.step_data.final.value;
     for (const ReadingPoint& point : test.points)
         construction.readings.push_back({point.name, point.time, point.value});
     if (options.has("xlabel")) construction.x_label = Message::verbatim(options.text("xlabel", ""));

@@ -173,7 +173,7 @@ int validate_across(Call& call) {
 constexpr FunctionEntry kResidualsFunctions[] = {
     {"resid", "validation", "resid(data, G, {options}) -> fig, table",
      "Test the residuals for whiteness and independence of the input", guarded<test_residuals>, kResidualsTables,
-     kRecordAndModel},
+     kDataAndModel},
     {"crossvalidate", "validation", "crossvalidate(data, fit, {options}) -> fig, table",
      "Cross-validate an estimation method", guarded<validate_across>, kFoldsTables, kFoldArguments},
 };

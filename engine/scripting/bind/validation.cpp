@@ -27,8 +27,8 @@ constexpr std::array kFitOptions = {kStepsOption};
 constexpr OptionTable kCompareTables[] = {kComparisonOptions, kComparisonStart},
                       kFitTables[] = {kFitOptions, kComparisonStart}, kMeasuresTables[] = {kComparisonStart};
 
-constexpr ArgumentEntry kCompareArguments[] = {kRecordArgument, {"G1, ...", ValueKind::kModel, about("models")}};
-constexpr std::array kTestArguments = {kModelArgument, kRecordArgument};
+constexpr ArgumentEntry kCompareArguments[] = {kDataSetArgument, {"G1, ...", ValueKind::kModel, about("models")}};
+constexpr std::array kTestArguments = {kModelArgument, kDataSetArgument};
 
 Message model_name(const Call& call, int index, const std::vector<std::string>& labels, std::size_t number) {
     if (number < labels.size()) return Message::verbatim(labels[number]);
@@ -243,10 +243,10 @@ constexpr FunctionEntry kValidationFunctions[] = {
      "Compare measured with simulated or predicted outputs", guarded<compare_models>, kCompareTables,
      kCompareArguments},
     {"fit", "validation", "fit(data, G, {options}) -> percent", "Fit of the simulated or predicted output in percent",
-     guarded<fit>, kFitTables, kRecordAndModel},
+     guarded<fit>, kFitTables, kDataAndModel},
     {"fit_measures", "validation", "fit_measures(data, G, {options}) -> table",
      "Compute fit, R_T^2, RMSE, FPE, AIC, BIC and YIC of the simulated output", guarded<measure_fit>, kMeasuresTables,
-     kRecordAndModel},
+     kDataAndModel},
 };
 
 }  // namespace

@@ -27,31 +27,31 @@ std::string short_value_text(lua_State* L, int index) {
 }
 
 /// "gain(x = 2)" for the activation of a function.
-Message call_words(lua_State* L, lua_Debug& record) {
-    lua_getinfo(L, "nSu", &record);
-    if (std::string_view(record.what) == "main") return Message("ran {}", record.short_src);
+Message call_words(lua_State* L, lua_Debug& frame) {
+    lua_getinfo(L, "nSu", &frame);
+    if (std::string_view(frame.what) == "main") return Message("ran {}", frame.short_src);
     std::vector<std::string> arguments;
-    const int count = std::min<int>(record.nparams, kMostArguments);
+    const int count = std::min<int>(frame.nparams, kMostArguments);
     for (int i = 1; i <= count; ++i) {
-        const char* name = lua_getlocal(L, &record, i);
+        const char* name = lua_getlocal(L, &frame, i);
         if (name == nullptr) break;
         arguments.push_back(fmt::format("{} = {}", name, short_value_text(L, -1)));
         lua_pop(L, 1);
     }
-    if (record.nparams > count || record.isvararg != 0) arguments.emplace_back("...");
+    if (frame.nparams > count || frame.isvararg != 0) arguments.emplace_back("...");
     const std::string given = fmt::format("({})", fmt::join(arguments, ", "));
-    if (record.name == nullptr) return Message("called the function of line {} {}", record.linedefined, given);
-    return Message("called {}", record.name + given);
+    if (frame.name == nullptr) return Message("called the function of line {} {}", frame.linedefined, given);
+    return Message("called {}", frame.name + given);
 }
 
 /// The vector's address is its argument.
 int collect_calls(lua_State* L) {
     auto& calls = *static_cast<std::vector<RecordedCall>*>(lua_touserdata(L, 1));
     Message called;
-    lua_Debug record;
-    for (int level = 0; level < kMaxLevels && lua_getstack(L, level, &record) != 0; ++level) {
-        lua_getinfo(L, "Sl", &record);
-        if (record.currentline <= 0) continue;
+    lua_Debug frame;
+    for (int level = 0; level < kMaxLevels && lua_getstack(L, level, &frame) != 0; ++level) {
+        lua_getinfo(L, "Sl", &frame);
+        if (frame.currentline <= 0) continue;
         if (!called.empty()) {
             if (calls.size() == kMaxChainLength) {
                 RuntimeContext& context = context_of(L);
@@ -59,9 +59,9 @@ int collect_calls(lua_State* L) {
                     {Message("started a longer chain of calls"), context.script_name, main_chunk_line(context)});
                 break;
             }
-            calls.push_back({called, record.short_src, record.currentline});
+            calls.push_back({called, frame.short_src, frame.currentline});
         }
-        called = call_words(L, record);
+        called = call_words(L, frame);
     }
     return 0;
 }

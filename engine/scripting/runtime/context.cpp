@@ -10,24 +10,24 @@ namespace dynlab::inline scripting {
 namespace {
 
 /// The activation of the outermost call of a thread: the main chunk.
-bool outermost_call(lua_State* L, lua_Debug& record) {
+bool outermost_call(lua_State* L, lua_Debug& frame) {
     int inside = 0, outside = 1;
-    while (lua_getstack(L, outside, &record)) {
+    while (lua_getstack(L, outside, &frame)) {
         inside = outside;
         outside *= 2;
     }
     while (inside + 1 < outside) {
         const int middle = (inside + outside) / 2;
-        (lua_getstack(L, middle, &record) ? inside : outside) = middle;
+        (lua_getstack(L, middle, &frame) ? inside : outside) = middle;
     }
-    return lua_getstack(L, inside, &record) != 0;
+    return lua_getstack(L, inside, &frame) != 0;
 }
 
 ScriptPlace innermost_line(lua_State* L) {
-    lua_Debug record;
-    for (int level = 0; lua_getstack(L, level, &record); ++level) {
-        lua_getinfo(L, "Sl", &record);
-        if (record.currentline > 0) return {record.short_src, record.currentline};
+    lua_Debug frame;
+    for (int level = 0; lua_getstack(L, level, &frame); ++level) {
+        lua_getinfo(L, "Sl", &frame);
+        if (frame.currentline > 0) return {frame.short_src, frame.currentline};
     }
     return {};
 }

@@ -115,8 +115,8 @@ int coroutine_close(lua_State* L) {
     lua_State* co = lua_tothread(L, 1);
     luaL_argexpected(L, co != nullptr, 1, "coroutine");
     poll_stop(L);
-    lua_Debug record;
-    const bool suspended = co != L && (lua_status(co) == LUA_YIELD || lua_getstack(co, 0, &record) == 0);
+    lua_Debug frame;
+    const bool suspended = co != L && (lua_status(co) == LUA_YIELD || lua_getstack(co, 0, &frame) == 0);
     if (!suspended)
         raise_error(
             L, Message("{}: {}", "coroutine.close", Message("only a coroutine that is not running can be closed")));

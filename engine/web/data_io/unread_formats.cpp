@@ -17,8 +17,8 @@ SheetText read_sheet(const std::filesystem::path& file, const std::string&) {
     refuse(file, ".xlsx");
 }
 
-VariableTable read_packaged_record(const PackagedRecord& record) {
-    refuse(record.file, "SLICOT");
+VariableTable read_packaged_data(const PackagedData& packaged) {
+    refuse(packaged.file, "SLICOT");
 }
 
 }  // namespace dynlab::inline data_io

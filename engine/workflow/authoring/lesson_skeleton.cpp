@@ -182,7 +182,7 @@ msgstr "Que laisse le modèle ?"
 
 /// 24 loadings of a spring of 2.5 N/mm; the errors come from no random numbers, so that the file is the same
 /// everywhere.
-std::string record() {
+std::string spring_data() {
     std::string csv = "u (N),y (mm)\n";
     for (int k = 1; k <= 24; ++k) {
         const double u = 0.5 * k, error = 0.08 * std::sin(2.4 * k * k);
@@ -199,7 +199,7 @@ std::vector<std::string> make_lesson_skeleton(const fs::path& folder) {
     if (!is_name("_" + slug))
         throw EnvironmentError("'{}' is not a valid lesson name: use letters, digits, _ and -, as in 08_springs", slug);
     const std::map<std::string, std::string> files = {{"lesson.lua", replaced(kLesson, "SLUG", slug)},
-                                                      {"record.csv", record()},
+                                                      {"record.csv", spring_data()},
                                                       {"checks.lua", kChecks},
                                                       {"wrong_compliance.lua", kWrong},
                                                       {"right_other_methods.lua", kRight},

@@ -13,7 +13,7 @@ using namespace dynlab::test;
 const PolynomialOrders kOrders = PolynomialOrders::arx(2, {1, 2}, {1, 3});
 
 /// Two experiments, the first longer than one block of rows, and one too short for any equation.
-IdData record() {
+IdData simulated_data() {
     const auto part = [](Index N, std::uint32_t seed) {
         Matrix u(N, 2);
         u << RandomStream(seed).normal(N), RandomStream(seed + 1).normal(N);
@@ -35,7 +35,7 @@ Matrix by_hand(const IdData& data) {
 }
 
 TEST(arx_equations, sums_and_errors) {  // oracle: the equations written down, row by row
-    const IdData data = record();
+    const IdData data = simulated_data();
     const ArxEquations equations(data, kOrders);
     const Matrix all = by_hand(data), gram = all.transpose() * all;
     ASSERT_EQ(equations.count(), all.rows());
@@ -52,7 +52,7 @@ TEST(arx_equations, sums_and_errors) {  // oracle: the equations written down, r
 }
 
 TEST(arx_equations, least_squares) {  // oracle: second route, the QR decomposition of all equations
-    const IdData data = record();
+    const IdData data = simulated_data();
     const Matrix all = by_hand(data), Phi = all.leftCols(5);
     const ArxSolution solution = solve_arx(ArxEquations(data, kOrders));
     EXPECT_LT((solution.theta - Phi.householderQr().solve(all.col(5))).cwiseAbs().maxCoeff(), 1e-12);
@@ -61,7 +61,7 @@ TEST(arx_equations, least_squares) {  // oracle: second route, the QR decomposit
 
 TEST(arx_equations, free_run_and_driven_part) {  // oracle: the difference equation, sample by sample
     const PolynomialModel model(kOrders, Vector{{-1.2, 0.5, 0.4, -0.1, 0.2}}, 0.1);
-    const Matrix u = record().experiments[2].u;
+    const Matrix u = simulated_data().experiments[2].u;
     const Vector driven = driven_part(model, u), y = free_run(Vector{{-1.2, 0.5}}, driven, Vector::Zero(300), 0);
     EXPECT_LT((y - model_output(model, u, Vector::Zero(300))).cwiseAbs().maxCoeff(), 1e-12);
     const Vector known = free_run(Vector{{-1.2, 0.5}}, driven, Vector::Constant(300, 7.0), 2);

@@ -45,7 +45,7 @@ TEST(denominator_group, unstable_roots_are_mirrored) {  // oracle: the roots wri
 }
 
 TEST(denominator_group, gram_of_the_instruments) {  // oracle: second route, the sensitivities stored
-    const IdData data = course_record(0.1, 1);
+    const IdData data = course_system_data(0.1, 1);
     const DenominatorGroup group(data, TransferStructure::single(2, 0), 0, Hold::kFoh);
     const Vector theta{{4.0, 3.0, 2.0}};
     const Matrix all =

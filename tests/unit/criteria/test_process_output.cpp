@@ -12,7 +12,7 @@ using namespace dynlab;
 using namespace dynlab::test;
 
 /// Sampled about once a second.
-IdData some_record(Index N, bool regular) {
+IdData some_data(Index N, bool regular) {
     Vector u = RandomStream(5).normal(N), t(N);
     for (Index k = 0; k < N; ++k) {
         u[k] = u[k - k % 9] + 0.4;
@@ -57,7 +57,7 @@ TEST(process_output, sensitivities_agree_with_differences) {  // oracle: central
     for (const ProcessModel& model : every_process(4.0))
         for (const bool regular : {true, false})
             for (const bool estimate : {false, true}) {
-                const IdData data = IdData::merge({some_record(60, regular), some_record(41, regular)});
+                const IdData data = IdData::merge({some_data(60, regular), some_data(41, regular)});
                 const TransferOutput transfer(transfer_structure(model.structure),
                                               {estimate ? InitialState::kEstimate : InitialState::kSteady, true}, data,
                                               0, 20, at_rest(model.structure));

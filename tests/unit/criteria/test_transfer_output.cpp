@@ -26,7 +26,7 @@ Matrix rough_inputs(Index N, Index inputs, std::uint32_t seed) {
 }
 
 // Two experiments of different length.
-IdData record(Index outputs, Index inputs, Hold hold, bool regular) {
+IdData simulated_data(Index outputs, Index inputs, Hold hold, bool regular) {
     std::vector<IdData> parts;
     for (Index e = 0; e < 2; ++e) {
         const Index N = kN - 30 * e;
@@ -80,7 +80,7 @@ TEST(transfer_output, sensitivities_agree_with_differences) {  // oracle: second
                     structure.free_delays = true;
                     TransferOutput model(structure,
                                          {estimate ? InitialState::kEstimate : InitialState::kSteady, estimate},
-                                         record(c.outputs, c.inputs, hold, regular), 0, 1);
+                                         simulated_data(c.outputs, c.inputs, hold, regular), 0, 1);
                     model.set_weights(Vector::LinSpaced(c.outputs, 1, 3));
                     const Vector theta = some_values(structure, model);
                     Vector output, plus, minus;
@@ -102,7 +102,7 @@ TEST(transfer_output, sensitivities_agree_with_differences) {  // oracle: second
 
 TEST(transfer_output, equals_lsim_channel_by_channel) {  // oracle: second route, lsim
     for (const bool regular : {true, false}) {
-        const IdData data = record(2, 2, Hold::kZoh, regular);
+        const IdData data = simulated_data(2, 2, Hold::kZoh, regular);
         const TransferStructure structure =
             TransferStructure::grid(2, 2, Denominators::kCommon, {2}, {1, 0, 2, 0}, {0.0, 0.23, 0.3, 1});
         const TransferOutput model(structure, {InitialState::kZero, false}, data, 0, 0);
@@ -143,7 +143,8 @@ TEST(transfer_output, initial_values_are_derivatives_at_the_first_sample) {  // 
 TEST(transfer_output, reports_what_bears_on_each_output) {  // oracle: definition, columns of the sensitivities
     TransferStructure structure = TransferStructure::grid(2, 2, Denominators::kPerOutput, {2, 2, 1, 1}, {0}, {0.0});
     structure.free_delays = true;
-    const TransferOutput model(structure, {InitialState::kEstimate, true}, record(2, 2, Hold::kZoh, true), 0, 1);
+    const TransferOutput model(structure, {InitialState::kEstimate, true}, simulated_data(2, 2, Hold::kZoh, true), 0,
+                               1);
     Vector output;
     Matrix sensitivities;
     model.simulate(some_values(structure, model), output, &sensitivities);
@@ -158,19 +159,19 @@ TEST(transfer_output, reports_what_bears_on_each_output) {  // oracle: definitio
 
 TEST(transfer_output, has_no_end_instead_of_failing) {  // oracle: definition
     const TransferStructure structure = TransferStructure::single(2, 0);
-    const TransferOutput model(structure, {InitialState::kZero, false}, record(1, 1, Hold::kZoh, true), 0, 0);
+    const TransferOutput model(structure, {InitialState::kZero, false}, simulated_data(1, 1, Hold::kZoh, true), 0, 0);
     Vector output;
     for (const double a : {1e300, -1e12, -1e4, std::nan("")}) {
         model.simulate(Vector{{a, 1.0, 1.0}}, output, nullptr);
         EXPECT_FALSE(output.allFinite()) << a;
     }
-    EXPECT_THROW(TransferOutput(structure, {InitialState::kZero, false}, record(2, 1, Hold::kZoh, true), 0, 0),
+    EXPECT_THROW(TransferOutput(structure, {InitialState::kZero, false}, simulated_data(2, 1, Hold::kZoh, true), 0, 0),
                  InvalidArgument);
 }
 
 /// Oracle: the poles, which are given.
 TEST(transfer_output, bounds_of_stable_models_let_slow_ones_be) {
-    const IdData data = record(1, 1, Hold::kZoh, true);
+    const IdData data = simulated_data(1, 1, Hold::kZoh, true);
     for (const double radians : {1.0, 1e-2, 1e-4}) {  // of the slowest pole in a sample
         const TransferStructure structure = TransferStructure::single(6, 0);
         TransferOutput model(structure, {InitialState::kZero, false}, data, 0, 0);

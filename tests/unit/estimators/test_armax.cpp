@@ -27,7 +27,7 @@ PolynomialOrders orders_of(int na, std::vector<int> nb, int nc, std::vector<int>
 const PolynomialOrders kOrders = orders_of(2, {2}, 2, {1});
 const Vector kTheta{{-1.5, 0.7, 1, 0.5, -1, 0.3}};
 
-IdData record(Index N, double noise, std::uint32_t seed) {
+IdData simulated_data(Index N, double noise, std::uint32_t seed) {
     const Vector u = random_levels(N + 100, 2, seed + 1000), e = noise * RandomStream(seed).normal(N + 100);
     const Vector y = model_output(PolynomialModel(kOrders, kTheta, 1), u, e);
     return IdData(Matrix(y.tail(N)), Matrix(u.tail(N)), 1);
@@ -53,13 +53,13 @@ double loss_of(const IdData& data, const Vector& theta) {
 }
 
 TEST(armax, recovers_noise_free_systems) {  // oracle: the simulated system
-    const auto result = armax(record(500, 0, 1), kOrders, tight());
+    const auto result = armax(simulated_data(500, 0, 1), kOrders, tight());
     EXPECT_LT((result.theta - kTheta).head(4).cwiseAbs().maxCoeff(), 1e-9) << message_text(result.full_message());
     EXPECT_GT(result.fit_percent[0], 100 - 1e-6);
 }
 
 TEST(armax, without_c_it_is_arx) {  // oracle: the linear solution
-    const IdData data = IdData::merge({record(500, 0.5, 1), record(300, 0.5, 2)});
+    const IdData data = IdData::merge({simulated_data(500, 0.5, 1), simulated_data(300, 0.5, 2)});
     const auto linear = arx(data, PolynomialOrders::arx(2, {2}, {1}));
     const auto result = armax(data, orders_of(2, {2}, 0, {1}), tight());
     EXPECT_LT((result.theta - linear.theta).cwiseAbs().maxCoeff(), 1e-9);
@@ -70,7 +70,7 @@ TEST(armax, without_c_it_is_arx) {  // oracle: the linear solution
 }
 
 TEST(armax, gradient_is_zero_at_the_optimum) {  // oracle: central differences of the definition's loss
-    const IdData data = record(800, 0.5, 3);
+    const IdData data = simulated_data(800, 0.5, 3);
     const auto result = armax(data, kOrders, tight());
     EXPECT_NEAR(result.loss, loss_of(data, result.theta), 1e-10);
     for (Index i = 0; i < kTheta.size(); ++i) {
@@ -87,7 +87,7 @@ TEST(armax, scatters_as_its_standard_errors_say) {
     constexpr Index kRuns = 150;
     Matrix thetas(6, kRuns), errors(6, kRuns);
     for (Index run = 0; run < kRuns; ++run) {
-        const auto result = armax(record(800, 0.5, static_cast<std::uint32_t>(run + 1)), kOrders);
+        const auto result = armax(simulated_data(800, 0.5, static_cast<std::uint32_t>(run + 1)), kOrders);
         thetas.col(run) = result.theta;
         errors.col(run) = result.std;
     }
@@ -111,7 +111,7 @@ TEST(armax, two_inputs_and_a_delay) {  // oracle: the simulated system
 }
 
 TEST(armax, prediction_errors_are_tested_for_whiteness) {  // oracle: statistics with a fixed seed
-    const IdData data = record(2000, 0.5, 5);
+    const IdData data = simulated_data(2000, 0.5, 5);
     const auto right = assess(data, armax(data, kOrders));
     EXPECT_TRUE(right.white) << message_text(right.verdict);
     const auto right_fit = armax(data, kOrders);
@@ -123,7 +123,7 @@ TEST(armax, prediction_errors_are_tested_for_whiteness) {  // oracle: statistics
 TEST(armax, can_be_canceled) {  // oracle: definition
     FitOptions options;
     options.cancel = [] { return true; };
-    EXPECT_EQ(armax(record(300, 0.5, 1), kOrders, options).termination, Termination::kCanceled);
+    EXPECT_EQ(armax(simulated_data(300, 0.5, 1), kOrders, options).termination, Termination::kCanceled);
 }
 
 TEST(armax, refuses_what_it_cannot_fit) {  // oracle: definitions
@@ -132,9 +132,9 @@ TEST(armax, refuses_what_it_cannot_fit) {  // oracle: definitions
     };
     PolynomialOrders other = kOrders;
     other.nd = 1;
-    EXPECT_THAT(refusal(record(100, 0.1, 1), other), HasSubstr("nd and nf must be zero"));
-    EXPECT_THAT(refusal(record(6, 0.1, 1), kOrders), HasSubstr("armax needs more equations"));
-    IdData constant = record(100, 0.1, 1);
+    EXPECT_THAT(refusal(simulated_data(100, 0.1, 1), other), HasSubstr("nd and nf must be zero"));
+    EXPECT_THAT(refusal(simulated_data(6, 0.1, 1), kOrders), HasSubstr("armax needs more equations"));
+    IdData constant = simulated_data(100, 0.1, 1);
     constant.experiments[0].u.setOnes();
     EXPECT_THAT(refusal(constant, kOrders), HasSubstr("armax: the input u1 is not persistently exciting enough"));
 }

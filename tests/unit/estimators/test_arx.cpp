@@ -20,7 +20,7 @@ using testing::HasSubstr;
 const PolynomialOrders kSecond = PolynomialOrders::arx(2, {2}, {2});
 const Vector kTruth{{-1.2, 0.5, 0.4, -0.1}};
 
-IdData record(Index N, double noise, std::uint32_t seed, double Ts = 0.1) {
+IdData simulated_data(Index N, double noise, std::uint32_t seed, double Ts = 0.1) {
     const Vector u = random_levels(N, 3, seed + 100);
     const Vector e = noise * RandomStream(seed).normal(N);
     return IdData(Matrix(model_output(PolynomialModel(kSecond, kTruth, Ts), u, e)), Matrix(u), Ts);
@@ -51,7 +51,7 @@ double worst(const Vector& a, const Vector& b) {
 
 TEST(arx, recovers_a_noise_free_system) {  // oracle: the simulated system
     for (double Ts : {0.1, 1e-6}) {
-        const auto result = arx(record(400, 0, 1, Ts), kSecond);
+        const auto result = arx(simulated_data(400, 0, 1, Ts), kSecond);
         EXPECT_LT(worst(result.theta, kTruth), 1e-12);
         EXPECT_GT(result.fit_percent[0], 100 - 1e-9);
         EXPECT_EQ(result.polynomial->Ts, Ts);
@@ -59,8 +59,8 @@ TEST(arx, recovers_a_noise_free_system) {  // oracle: the simulated system
     }
 }
 
-TEST(arx, solves_the_normal_equations) {       // oracle: the definition, orthogonality of the residuals
-    const IdData data = record(5000, 0.3, 2);  // several blocks
+TEST(arx, solves_the_normal_equations) {               // oracle: the definition, orthogonality of the residuals
+    const IdData data = simulated_data(5000, 0.3, 2);  // several blocks
     const auto result = arx(data, kSecond);
     const auto [Phi, y] = equations(data.experiments[0].u, data.experiments[0].y, kSecond);
     const Vector residuals = y - Phi * result.theta;
@@ -125,7 +125,7 @@ TEST(arx,
 }
 
 TEST(arx, too_high_orders_are_reported) {  // oracle: the simulated system; the past takes five of 400 samples
-    const auto result = arx(record(400, 0, 1), PolynomialOrders::arx(4, {4}, {2}));
+    const auto result = arx(simulated_data(400, 0, 1), PolynomialOrders::arx(4, {4}, {2}));
     EXPECT_THAT(message_text(result.message), HasSubstr("Least squares with 395 equations: fit "));
     EXPECT_THAT(message_text(result.full_message()), HasSubstr("do not determine all parameters separately"));
     EXPECT_GT(result.fit_percent[0], 100 - 1e-5);
@@ -159,7 +159,7 @@ TEST(arx, refuses_poor_inputs_and_is_right) {
 }
 
 TEST(arx, refuses_other_data_and_orders) {
-    const IdData data = record(100, 0.1, 1);
+    const IdData data = simulated_data(100, 0.1, 1);
     const Vector u = data.experiments[0].u, y = data.experiments[0].y;
     const auto refusal = [](const IdData& given, const PolynomialOrders& orders) {
         return thrown_message([&] { arx(given, orders); });

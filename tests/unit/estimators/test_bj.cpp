@@ -26,7 +26,7 @@ PolynomialOrders orders_of(int nc, int nd) {
 const PolynomialOrders kOrders = orders_of(1, 1);
 const Vector kTheta{{-1.5, 0.7, 1, 0.5, 0.5, -0.9}};
 
-IdData record(Index N, double noise, std::uint32_t seed, Index cut = 0) {
+IdData simulated_data(Index N, double noise, std::uint32_t seed, Index cut = 0) {
     const Vector u = random_levels(N, 2, seed + 1000), e = noise * RandomStream(seed).normal(N);
     const Vector y = model_output(PolynomialModel(kOrders, kTheta, 1), u, e);
     return IdData(Matrix(y.tail(N - cut)), Matrix(u.tail(N - cut)), 1);
@@ -52,12 +52,12 @@ double loss_of(const IdData& data, const Vector& theta) {
 }
 
 TEST(bj, recovers_noise_free_systems) {  // oracle: the simulated system
-    const auto result = bj(record(500, 0, 1), kOrders, tight());
+    const auto result = bj(simulated_data(500, 0, 1), kOrders, tight());
     EXPECT_LT((result.theta - kTheta).head(4).cwiseAbs().maxCoeff(), 1e-8) << message_text(result.full_message());
 }
 
 TEST(bj, without_c_and_d_it_is_oe) {  // oracle: oe, whose search is another program path
-    IdData data = IdData::merge({record(600, 0.5, 1, 50), record(400, 0.5, 2, 50)});
+    IdData data = IdData::merge({simulated_data(600, 0.5, 1, 50), simulated_data(400, 0.5, 2, 50)});
     for (Experiment& experiment : data.experiments) experiment.y.array() += 3;
     for (const InitialState state : {InitialState::kZero, InitialState::kEstimate, InitialState::kAuto})
         for (const Offset offset : {Offset::kNone, Offset::kEstimate, Offset::kRemove}) {
@@ -71,7 +71,7 @@ TEST(bj, without_c_and_d_it_is_oe) {  // oracle: oe, whose search is another pro
 }
 
 TEST(bj, gradient_is_zero_at_the_optimum) {  // oracle: central differences of the definition's loss
-    const IdData data = record(800, 0.3, 3);
+    const IdData data = simulated_data(800, 0.3, 3);
     const auto result = bj(data, kOrders, tight());
     EXPECT_NEAR(result.loss, loss_of(data, result.theta), 1e-10);
     for (Index i = 0; i < kTheta.size(); ++i) {
@@ -88,7 +88,7 @@ TEST(bj, scatters_as_its_standard_errors_say_and_less_than_oe) {
     constexpr Index kRuns = 150;
     Matrix thetas(6, kRuns), errors(6, kRuns), others(4, kRuns);
     for (Index run = 0; run < kRuns; ++run) {
-        const IdData data = record(800, 0.3, static_cast<std::uint32_t>(run + 1));
+        const IdData data = simulated_data(800, 0.3, static_cast<std::uint32_t>(run + 1));
         const auto result = bj(data, kOrders);
         thetas.col(run) = result.theta;
         errors.col(run) = result.std;
@@ -126,7 +126,7 @@ TEST(bj, long_records_end_where_the_search_from_the_truth_ends) {
 }
 
 TEST(bj, a_record_cut_from_a_running_experiment) {  // oracle: the simulated system
-    IdData data = record(2000, 0.05, 4, 100);
+    IdData data = simulated_data(2000, 0.05, 4, 100);
     data.experiments[0].y.array() += 7;
     const auto result = bj(data, kOrders, tight(InitialState::kAuto, Offset::kAuto));
     for (Index i = 0; i < kTheta.size(); ++i) EXPECT_NEAR(result.theta[i], kTheta[i], 4 * result.std[i]) << i;
@@ -135,7 +135,7 @@ TEST(bj, a_record_cut_from_a_running_experiment) {  // oracle: the simulated sys
 }
 
 TEST(bj, prediction_errors_are_tested_for_whiteness) {  // oracle: statistics with a fixed seed
-    const IdData data = record(2000, 0.3, 5);
+    const IdData data = simulated_data(2000, 0.3, 5);
     EXPECT_TRUE(assess(data, bj(data, kOrders)).white);
     EXPECT_FALSE(assess(data, bj(data, orders_of(0, 0))).white);
 }
@@ -143,8 +143,8 @@ TEST(bj, prediction_errors_are_tested_for_whiteness) {  // oracle: statistics wi
 TEST(bj, refuses_what_it_cannot_fit) {  // oracle: definitions
     PolynomialOrders other = kOrders;
     other.na = 1;
-    EXPECT_THAT(thrown_message([&] { bj(record(100, 0.1, 1), other); }), HasSubstr("na must be zero"));
-    EXPECT_THAT(thrown_message([&] { bj(record(4, 0.1, 1), kOrders); }), HasSubstr("bj needs more samples"));
+    EXPECT_THAT(thrown_message([&] { bj(simulated_data(100, 0.1, 1), other); }), HasSubstr("na must be zero"));
+    EXPECT_THAT(thrown_message([&] { bj(simulated_data(4, 0.1, 1), kOrders); }), HasSubstr("bj needs more samples"));
 }
 
 }  // namespace test_bj

@@ -42,13 +42,13 @@ void expect_near_truth(const Fit& found, const Vector& truth, double errors) {
             << message_text(found.full_message());
 }
 
-IdData record(const Vector& y, const Vector& u, double Ts) {
+IdData simulated_data(const Vector& y, const Vector& u, double Ts) {
     return IdData(Matrix(y), Matrix(u), Ts);
 }
 
 TEST(coe, equals_srivc_on_noisy_sets) {  // oracle: the fixed point of SRIVC is the output-error optimum
     for (const char* set : {"sys2_s0.2_seed1", "sys2_s0.4_seed1", "rg_snr10_seed1"}) {
-        const IdData data = reference_record(set, 0.01);
+        const IdData data = reference_data(set, 0.01);
         const TransferStructure structure = set[0] == 'r' ? TransferStructure::single(4, 1) : kCourse;
         const Fit a = coe(data, structure, exact()), b = srivc(data, structure, exact());
         EXPECT_LT(relative_difference(a.theta, b.theta), 1e-8) << set;
@@ -57,9 +57,9 @@ TEST(coe, equals_srivc_on_noisy_sets) {  // oracle: the fixed point of SRIVC is 
 }
 
 TEST(coe, noise_free_records_give_the_truth) {  // oracle: the simulated system
-    EXPECT_LT(relative_difference(coe(course_record(0, 1), kCourse, exact()).theta, values({4, 3, 2})), 1e-9);
+    EXPECT_LT(relative_difference(coe(course_system_data(0, 1), kCourse, exact()).theta, values({4, 3, 2})), 1e-9);
     EXPECT_LT(
-        relative_difference(coe(reference_record("rg_noisefree", 0.01), TransferStructure::single(4, 1), exact()).theta,
+        relative_difference(coe(reference_data("rg_noisefree", 0.01), TransferStructure::single(4, 1), exact()).theta,
                             values({5, 408, 416, 1600, -6400, 1600})),
         1e-9);
 }
@@ -155,7 +155,7 @@ TEST(coe, free_delay_without_noise_is_exact) {  // oracle: the simulated system
     const Vector u = prbs(8, 7);
     for (const double delay : {0.0, 0.5, 1.2345}) {
         const TransferFunction G(values({2}), values({1, 4, 3}), 0, delay);
-        const auto found = coe(record(lsim(G, u, 0.05), u, 0.05), with_free_delay(2, 0), exact());
+        const auto found = coe(simulated_data(lsim(G, u, 0.05), u, 0.05), with_free_delay(2, 0), exact());
         EXPECT_LT((found.theta - values({4, 3, 2, delay})).cwiseAbs().maxCoeff(), 1e-8)
             << message_text(found.full_message());
     }
@@ -178,7 +178,7 @@ TEST(coe, running_experiment) {  // oracle: the simulated system, cut from a run
     const Vector u = prbs(8, 9).array() + 0.7;
     const Vector x = lsim(TransferFunction(values({2}), values({1, 0.4, 3})), u, 0.05).array() + 6;
     const Index first = 131, last = 900;
-    const IdData whole = record(x, u, 0.05), noisy_data = IdData(Matrix(with_noise(x, 20, 1)), Matrix(u), 0.05);
+    const IdData whole = simulated_data(x, u, 0.05), noisy_data = IdData(Matrix(with_noise(x, 20, 1)), Matrix(u), 0.05);
     FitOptions options = exact();
     options.initial_state = InitialState::kEstimate;
     options.offset = Offset::kEstimate;
@@ -197,7 +197,7 @@ TEST(coe, running_experiment) {  // oracle: the simulated system, cut from a run
 }
 
 TEST(coe, rest_is_recognized) {  // oracle: the simulated system, from rest without offset
-    const IdData data = course_record(0.2, 4);
+    const IdData data = course_system_data(0.2, 4);
     FitOptions options;
     options.initial_state = InitialState::kAuto;
     options.offset = Offset::kAuto;
@@ -210,9 +210,9 @@ TEST(coe, operating_point_can_be_removed) {  // oracle: the simulated system, ab
     const Vector u = prbs(8, 5);
     const Vector x = lsim(TransferFunction(values({2}), values({1, 4, 3})), u, 0.05);
     FitOptions options = exact().from_rest();
-    const auto expected = coe(record(x.array() - x.mean(), u.array() - u.mean(), 0.05), kCourse, options);
+    const auto expected = coe(simulated_data(x.array() - x.mean(), u.array() - u.mean(), 0.05), kCourse, options);
     options.offset = Offset::kRemove;
-    const auto found = coe(record(x.array() + 40, u.array() + 7, 0.05), kCourse, options);
+    const auto found = coe(simulated_data(x.array() + 40, u.array() + 7, 0.05), kCourse, options);
     EXPECT_LT(relative_difference(found.theta, expected.theta), 1e-8);
     EXPECT_NEAR(found.offsets(0, 0), 40 + x.mean(), 1e-10);
 }
@@ -224,21 +224,21 @@ TEST(coe, whole_sample_shifts_are_delays) {  // oracle: invariance
     later.tail(N) = y;
     held.head(N) = u;
     held.tail(shift).setConstant(u[N - 1]);
-    const auto plain = coe(record(y, u, 0.05), kCourse, exact());
-    const auto shifted = coe(record(later, held, 0.05), TransferStructure::single(2, 0, 0.3), exact());
+    const auto plain = coe(simulated_data(y, u, 0.05), kCourse, exact());
+    const auto shifted = coe(simulated_data(later, held, 0.05), TransferStructure::single(2, 0, 0.3), exact());
     EXPECT_LT(relative_difference(shifted.theta, plain.theta), 1e-8);
 }
 
 TEST(coe, stops_when_asked_to_and_still_gives_a_model) {  // oracle: definition of the callback
     FitOptions options;
     options.cancel = [] { return true; };
-    const auto found = coe(course_record(0.2, 1), kCourse, options);
+    const auto found = coe(course_system_data(0.2, 1), kCourse, options);
     EXPECT_EQ(found.termination, Termination::kCanceled);
     EXPECT_TRUE(found.theta.allFinite());
 }
 
 TEST(coe, refuses_bad_input_in_words) {  // oracle: the sentence names what is wrong
-    const IdData data = course_record(0.2, 1);
+    const IdData data = course_system_data(0.2, 1);
     const auto refusal = [](const IdData& d, const TransferStructure& structure, const FitOptions& options = {}) {
         return thrown_message([&] { coe(d, structure, options); });
     };
@@ -270,7 +270,7 @@ TEST(coe, zero_input_has_no_information) {  // oracle: the criterion
 }
 
 TEST(coe, refuses_bad_options_in_words) {  // oracle: the sentence names the option
-    const IdData data = course_record(0.2, 1);
+    const IdData data = course_system_data(0.2, 1);
     FitOptions options;
     options.largest_delay = 20;
     EXPECT_NE(thrown_message([&] { coe(data, with_free_delay(2, 0), options); }).find("`largest_delay`"),

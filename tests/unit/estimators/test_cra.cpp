@@ -19,7 +19,7 @@ using testing::HasSubstr;
 
 const Vector kResponse{{0.0, 0.0, 1.0, 0.7, 0.4, 0.2, 0.1, 0.0, 0.0, 0.0, 0.0}};
 
-IdData record(const Vector& u, double noise, std::uint32_t seed) {
+IdData simulated_data(const Vector& u, double noise, std::uint32_t seed) {
     return IdData(Matrix(weighted_past(kResponse, u) + noise * RandomStream(seed).normal(u.size())), Matrix(u), 0.2);
 }
 
@@ -36,7 +36,7 @@ Vector colored(Index N, std::uint32_t seed) {
 }
 
 TEST(cra, is_the_correlation_divided_by_the_power) {  // oracle: direct sums
-    const IdData data = record(RandomStream(1).normal(150), 0.3, 2);
+    const IdData data = simulated_data(RandomStream(1).normal(150), 0.3, 2);
     const CorrelationAnalysis result = cra(data, with(10, 0));
     const Vector u = data.experiments[0].u.col(0).array() - data.experiments[0].u.mean();
     const Vector y = data.experiments[0].y.col(0).array() - data.experiments[0].y.mean();
@@ -48,17 +48,17 @@ TEST(cra, is_the_correlation_divided_by_the_power) {  // oracle: direct sums
 }
 
 TEST(cra, finds_the_whitening_filter) {  // oracle: the autoregression put in
-    const CorrelationAnalysis result = cra(record(colored(50000, 3), 0, 1), with(10, 2));
+    const CorrelationAnalysis result = cra(simulated_data(colored(50000, 3), 0, 1), with(10, 2));
     EXPECT_NEAR(result.whitening_filter[1], -1.2, 0.02);
     EXPECT_NEAR(result.whitening_filter[2], 0.5, 0.02);
     EXPECT_LT(result.input_correlation.tail(10).cwiseAbs().maxCoeff(), 4 / std::sqrt(50000.0));
 }
 
 TEST(cra, whitening_makes_it_the_impulse_response) {  // oracle: the response put in, within four standard errors
-    const CorrelationAnalysis result = cra(record(colored(20000, 5), 0.3, 1), with(10, 10));
+    const CorrelationAnalysis result = cra(simulated_data(colored(20000, 5), 0.3, 1), with(10, 10));
     const Vector error = (result.impulse.response - kResponse).cwiseAbs();
     EXPECT_LT((error.array() / result.impulse.std.array()).maxCoeff(), 4);
-    const CorrelationAnalysis without = cra(record(colored(20000, 5), 0.3, 1), with(10, 0));
+    const CorrelationAnalysis without = cra(simulated_data(colored(20000, 5), 0.3, 1), with(10, 0));
     EXPECT_GT((without.impulse.response - kResponse).cwiseAbs().maxCoeff(), 0.3);
     EXPECT_FALSE(without.impulse.warnings.empty());
 }
@@ -74,14 +74,15 @@ TEST(cra, chance_stays_inside_its_band) {  // oracle: independent signals, share
 }
 
 TEST(cra, reads_the_dead_time) {  // oracle: response_2 is the first, so one sample of dead time
-    const ImpulseEstimate estimate = cra(record(random_levels(2000, 1, 2), 0.3, 8), with(10, 5)).impulse;
+    const ImpulseEstimate estimate = cra(simulated_data(random_levels(2000, 1, 2), 0.3, 8), with(10, 5)).impulse;
     ASSERT_TRUE(estimate.first);
     EXPECT_EQ(*estimate.first, 2);
     EXPECT_THAT(message_text(estimate.message), HasSubstr("the dead time is about 0.2 s (1 sample)"));
 }
 
 TEST(cra, experiments_are_joined) {  // oracle: sums over both
-    const IdData a = record(RandomStream(1).normal(400), 0.1, 1), b = record(RandomStream(2).normal(300), 0.1, 2);
+    const IdData a = simulated_data(RandomStream(1).normal(400), 0.1, 1),
+                 b = simulated_data(RandomStream(2).normal(300), 0.1, 2);
     const Vector joint = cra(IdData::merge({a, b}), with(8, 0)).impulse.response;
     const auto power = [](const IdData& d) {
         return (d.experiments[0].u.array() - d.experiments[0].u.mean()).matrix().squaredNorm();
@@ -93,12 +94,12 @@ TEST(cra, experiments_are_joined) {  // oracle: sums over both
 TEST(cra, a_regular_input_is_reported_and_a_sine_does_no_harm) {
     Vector u(300);
     for (Index k = 0; k < 300; ++k) u[k] = std::sin(0.2 * static_cast<double>(k));
-    const ImpulseEstimate estimate = cra(record(u, 0.01, 1)).impulse;
+    const ImpulseEstimate estimate = cra(simulated_data(u, 0.01, 1)).impulse;
     EXPECT_TRUE(estimate.response.allFinite());
 }
 
 TEST(cra, says_what_it_needs) {
-    const IdData data = record(RandomStream(1).normal(60), 0.1, 1);
+    const IdData data = simulated_data(RandomStream(1).normal(60), 0.1, 1);
     EXPECT_THAT(thrown_message([&] { cra(data, with(30, 10)); }), HasSubstr("30 lags need at least 90 samples"));
     EXPECT_THROW(cra(data, with(5, -1)), InvalidArgument);
     EXPECT_THROW(cra(data, with(5, 101)), InvalidArgument);

@@ -50,7 +50,7 @@ System with_zero() {
     return {TransferFunction(values({1.5, 9}), values({1, 2, 9}), 0, 0.13), TransferStructure::single(2, 1, 0.13)};
 }
 
-IdData record(const TransferFunction& G, double noise, std::uint32_t seed, Index N = 1500) {
+IdData simulated_data(const TransferFunction& G, double noise, std::uint32_t seed, Index N = 1500) {
     const Vector u = levels_of(N, seed);
     const Vector f = characteristic(u);
     const Vector x = lsim(G, f.array() - f[0], 0.05).array() + f[0];
@@ -76,7 +76,7 @@ TEST(hammerstein, hat_functions_share_out_every_value) {  // oracle: definition
 
 TEST(hammerstein, recovers_a_dead_band_without_noise) {  // oracle: the simulated system
     for (const System& system : {without_zero(), with_zero()}) {
-        const auto result = hammerstein(record(system.G, 0, 1), system.structure, at_edges(kEdges));
+        const auto result = hammerstein(simulated_data(system.G, 0, 1), system.structure, at_edges(kEdges));
         EXPECT_LT((result.characteristic->levels - kLevels).cwiseAbs().maxCoeff(), 1e-6)
             << message_text(result.full_message());
         EXPECT_LT((result.models[0].den() - system.G.den()).cwiseAbs().maxCoeff(), 1e-5);
@@ -90,7 +90,7 @@ TEST(hammerstein, recovers_a_dead_band_without_noise) {  // oracle: the simulate
 TEST(hammerstein, finds_the_delay_together_with_the_rest) {  // oracle: the simulated system
     System system = with_zero();
     system.structure.free_delays = true;
-    const auto result = hammerstein(record(system.G, 0.01, 2), system.structure, at_edges(kEdges));
+    const auto result = hammerstein(simulated_data(system.G, 0.01, 2), system.structure, at_edges(kEdges));
     ASSERT_EQ(result.names.back(), "Td");
     EXPECT_NEAR(result.models[0].delay(), 0.13, 4 * result.std[result.std.size() - 1])
         << message_text(result.full_message());
@@ -103,8 +103,8 @@ TEST(hammerstein, scatters_as_its_standard_errors_say) {
     const System system = without_zero();
     Matrix thetas(6, kRuns), errors(6, kRuns);
     for (Index run = 0; run < kRuns; ++run) {
-        const auto result =
-            hammerstein(record(system.G, 0.2, static_cast<std::uint32_t>(run + 1)), system.structure, at_edges(kEdges));
+        const auto result = hammerstein(simulated_data(system.G, 0.2, static_cast<std::uint32_t>(run + 1)),
+                                        system.structure, at_edges(kEdges));
         thetas.col(run) = result.theta;
         errors.col(run) = result.std;
     }
@@ -119,7 +119,7 @@ TEST(hammerstein, scatters_as_its_standard_errors_say) {
 
 TEST(hammerstein, errors_are_orthogonal_to_what_the_parameters_do) {  // oracle: the loss nearby, simulated by lsim
     const System system = with_zero();
-    const IdData data = record(system.G, 0.1, 3);
+    const IdData data = simulated_data(system.G, 0.1, 3);
     const auto result = hammerstein(data, system.structure, at_edges(kEdges));
     const Vector u = data.experiments[0].u, y = data.experiments[0].y;
     const auto loss = [&](const Vector& theta) {  // [a1 a2 b0 f1..f4]
@@ -138,7 +138,7 @@ TEST(hammerstein, errors_are_orthogonal_to_what_the_parameters_do) {  // oracle:
 
 TEST(hammerstein, bins_do_without_edges_that_the_input_does_not_visit) {  // oracle: definition
     const System system = without_zero();
-    IdData data = record(system.G, 0.02, 4);
+    IdData data = simulated_data(system.G, 0.02, 4);
     HammersteinOptions options;
     options.bins = 8;
     const auto equal = hammerstein(data, system.structure, options);
@@ -210,7 +210,7 @@ TEST(hammerstein, record_that_begins_at_zero_input_is_distinguished) {  // oracl
 
 TEST(hammerstein, refuses_what_it_cannot_fit) {  // oracle: definitions
     const System system = without_zero();
-    const IdData data = record(system.G, 0.1, 1, 300);
+    const IdData data = simulated_data(system.G, 0.1, 1, 300);
     const auto refusal = [&](const IdData& given, const HammersteinOptions& options) {
         return thrown_message([&] { hammerstein(given, system.structure, options); });
     };

@@ -29,7 +29,7 @@ Vector response_with(Index dead, Index count) {
     return g;
 }
 
-IdData record(const Vector& g, const Vector& u, double noise, std::uint32_t seed) {
+IdData simulated_data(const Vector& g, const Vector& u, double noise, std::uint32_t seed) {
     return IdData(Matrix(weighted_past(g, u) + noise * RandomStream(seed).normal(u.size())), Matrix(u), 0.1);
 }
 
@@ -42,7 +42,7 @@ ImpulseestOptions plain(Index lags) {
 
 TEST(impulseest, is_exact_for_noise_free_finite_responses) {  // oracle: the response put in
     const Vector g = response_with(3, 21), u = RandomStream(2).normal(300);
-    IdData data = record(g, u, 0, 1);
+    IdData data = simulated_data(g, u, 0, 1);
     data.experiments[0].y.array() += 7;  // an offset is estimated as well
     const ImpulseEstimate estimate = impulseest(data, plain(20));
     EXPECT_LT((estimate.response - g).cwiseAbs().maxCoeff(), 1e-12);
@@ -51,7 +51,7 @@ TEST(impulseest, is_exact_for_noise_free_finite_responses) {  // oracle: the res
 }
 
 TEST(impulseest, a_long_record_takes_little_more_than_itself) {  // oracle: the size of all its equations
-    const IdData data = record(response_with(3, 21), RandomStream(2).normal(300000), 0.1, 1);
+    const IdData data = simulated_data(response_with(3, 21), RandomStream(2).normal(300000), 0.1, 1);
     const double before = peak_memory([] {}), equations = 300000.0 * 71 * sizeof(double) / (1 << 20);
     EXPECT_LT(peak_memory([&] { impulseest(data); }) - before, equations / 5);
 }
@@ -61,7 +61,8 @@ TEST(impulseest, plain_errors_are_those_it_states) {  // oracle: statistics over
     Matrix errors(25, 300);
     Vector stated = Vector::Zero(25);
     for (Index run = 0; run < 300; ++run) {
-        const ImpulseEstimate estimate = impulseest(record(g, u, 0.3, static_cast<std::uint32_t>(run + 1)), plain(24));
+        const ImpulseEstimate estimate =
+            impulseest(simulated_data(g, u, 0.3, static_cast<std::uint32_t>(run + 1)), plain(24));
         errors.col(run) = estimate.response - g;
         stated += estimate.std / 300;
     }
@@ -74,7 +75,7 @@ TEST(impulseest, smoothing_lowers_the_error) {  // oracle: the response put in, 
     const Vector g = response_with(4, 61), u = random_levels(600, 3, 4);
     double rough = 0, smooth = 0;
     for (std::uint32_t seed = 1; seed <= 30; ++seed) {
-        const IdData data = record(g, u, 0.5, seed);
+        const IdData data = simulated_data(g, u, 0.5, seed);
         ImpulseestOptions options;
         options.lags = 60;
         smooth += (impulseest(data, options).response - g).squaredNorm();
@@ -95,7 +96,8 @@ TEST(impulseest, smooth_errors_hold_for_responses_of_the_prior) {  // oracle: g 
         }
         ImpulseestOptions options;
         options.lags = 40;
-        const ImpulseEstimate estimate = impulseest(record(g, random_levels(500, 2, seed), 1, seed + 300), options);
+        const ImpulseEstimate estimate =
+            impulseest(simulated_data(g, random_levels(500, 2, seed), 1, seed + 300), options);
         inside += ((estimate.response - g).array().abs() < 1.96 * estimate.std.array()).count();
     }
     EXPECT_NEAR(static_cast<double>(inside) / 4100, 0.95, 0.03);
@@ -105,11 +107,11 @@ TEST(impulseest, the_smooth_estimate_follows_the_data_when_noise_vanishes) {  //
     const Vector g = response_with(0, 31), u = RandomStream(3).normal(400);
     ImpulseestOptions options;
     options.lags = 30;
-    EXPECT_LT((impulseest(record(g, u, 1e-6, 1), options).response - g).cwiseAbs().maxCoeff(), 1e-5);
+    EXPECT_LT((impulseest(simulated_data(g, u, 1e-6, 1), options).response - g).cwiseAbs().maxCoeff(), 1e-5);
 }
 
 TEST(impulseest, regularized_is_the_dense_posterior) {  // oracle: N x N conditioning, N = 100, means taken off
-    const IdData data = record(response_with(1, 25), random_levels(100, 1, 3), 0.2, 4);
+    const IdData data = simulated_data(response_with(1, 25), random_levels(100, 1, 3), 0.2, 4);
     for (const ResponseKernel kernel : {ResponseKernel::kTc, ResponseKernel::kDc, ResponseKernel::kSs}) {
         ImpulseestOptions options;
         options.lags = 24;
@@ -136,7 +138,7 @@ TEST(impulseest, smoother_kernels_suit_smoother_responses) {  // oracle: the res
     }
     double tc = 0, ss = 0;
     for (std::uint32_t seed = 1; seed <= 30; ++seed) {
-        const IdData data = record(g, random_levels(500, 3, seed), 0.5, seed + 50);
+        const IdData data = simulated_data(g, random_levels(500, 3, seed), 0.5, seed + 50);
         ImpulseestOptions options;
         options.lags = 79;
         tc += (impulseest(data, options).response - g).squaredNorm();
@@ -151,7 +153,7 @@ TEST(impulseest, reads_the_dead_time) {    // oracle: the dead time put in, 100 
         Index right = 0;
         for (std::uint32_t seed = 1; seed <= 100; ++seed) {
             const ImpulseEstimate estimate =
-                impulseest(record(response_with(dead, 60), random_levels(700, 3, seed), 0.2, seed + 500));
+                impulseest(simulated_data(response_with(dead, 60), random_levels(700, 3, seed), 0.2, seed + 500));
             right += estimate.first && std::abs(*estimate.first - dead) <= 1;
         }
         EXPECT_GE(right, 90) << dead;
@@ -171,7 +173,8 @@ TEST(impulseest, an_input_without_effect_is_reported) {  // oracle: independent 
 
 TEST(impulseest, joins_experiments_with_offsets_of_their_own) {  // oracle: the response put in
     const Vector g = response_with(1, 15);
-    IdData a = record(g, RandomStream(1).normal(100), 0, 1), b = record(g, RandomStream(2).normal(80), 0, 1);
+    IdData a = simulated_data(g, RandomStream(1).normal(100), 0, 1),
+           b = simulated_data(g, RandomStream(2).normal(80), 0, 1);
     a.experiments[0].y.array() += 5;
     b.experiments[0].y.array() -= 3;
     EXPECT_LT((impulseest(IdData::merge({a, b}), plain(14)).response - g).cwiseAbs().maxCoeff(), 1e-12);
@@ -180,7 +183,7 @@ TEST(impulseest, joins_experiments_with_offsets_of_their_own) {  // oracle: the 
 TEST(impulseest, poor_inputs_need_the_smooth_estimate) {  // oracle: a sine gives two regressors
     Vector u(400);
     for (Index k = 0; k < 400; ++k) u[k] = std::sin(0.2 * static_cast<double>(k));
-    const IdData data = record(response_with(1, 60), u, 0.01, 1);
+    const IdData data = simulated_data(response_with(1, 60), u, 0.01, 1);
     EXPECT_THAT(thrown_message([&] { impulseest(data, plain(60)); }),
                 HasSubstr("not persistently exciting enough to determine the 61 samples"));
     ImpulseestOptions options;
@@ -189,7 +192,7 @@ TEST(impulseest, poor_inputs_need_the_smooth_estimate) {  // oracle: a sine give
 }
 
 TEST(impulseest, says_what_it_needs) {
-    const IdData data = record(response_with(1, 20), RandomStream(1).normal(60), 0.1, 1);
+    const IdData data = simulated_data(response_with(1, 20), RandomStream(1).normal(60), 0.1, 1);
     EXPECT_THAT(thrown_message([&] { impulseest(data, plain(30)); }), HasSubstr("30 lags need at least 90 samples"));
     EXPECT_THROW(impulseest(data, plain(-1)), InvalidArgument);
     EXPECT_THAT(thrown_message([&] { impulseest(data, plain(500)); }), HasSubstr("between 1 and 400"));
@@ -201,7 +204,7 @@ TEST(impulseest, says_what_it_needs) {
 
 TEST(impulseest, a_response_that_outlasts_the_lags_is_reported) {
     const Vector g = Vector::Constant(200, 0.1);
-    const ImpulseEstimate estimate = impulseest(record(g, RandomStream(1).normal(900), 0.01, 1), plain(40));
+    const ImpulseEstimate estimate = impulseest(simulated_data(g, RandomStream(1).normal(900), 0.01, 1), plain(40));
     ASSERT_EQ(estimate.warnings.size(), 1u);
     EXPECT_THAT(message_text(estimate.warnings[0]), HasSubstr("not decayed"));
 }

@@ -21,14 +21,14 @@ const PolynomialOrders kOrders = PolynomialOrders::arx(2, {2}, {1});
 const Vector kTheta{{-1.5, 0.7, 1, 0.5}};
 
 /// White noise added to the output.
-IdData record(Index N, double noise, std::uint32_t seed) {
+IdData simulated_data(Index N, double noise, std::uint32_t seed) {
     const Vector u = random_levels(N, 2, seed + 1000);
     const Vector x = model_output(PolynomialModel(kOrders, kTheta, 1), u, Vector::Zero(N));
     return IdData(Matrix(x + noise * RandomStream(seed).normal(N)), Matrix(u), 1);
 }
 
 /// Autoregressive noise inside the equation.
-IdData colored_record(Index N, std::uint32_t seed) {
+IdData colored_data(Index N, std::uint32_t seed) {
     PolynomialOrders orders = kOrders;
     orders.nd = 1;
     const Vector u = random_levels(N, 2, seed + 1000), theta{{-1.5, 0.7, 1, 0.5, -0.8}};
@@ -49,13 +49,13 @@ Vector instruments(const Vector& theta, const Vector& u) {
 }
 
 TEST(iv4, recovers_noise_free_systems) {  // oracle: the simulated system
-    const auto result = iv4(record(400, 0, 1), kOrders);
+    const auto result = iv4(simulated_data(400, 0, 1), kOrders);
     EXPECT_THAT(message_text(result.message), testing::StartsWith("Instrumental variables with "));
     EXPECT_LT((result.theta - kTheta).cwiseAbs().maxCoeff(), 1e-10) << message_text(result.full_message());
 }
 
 TEST(iv4, follows_its_four_steps) {  // oracle: the definition with everything stored
-    const IdData data = record(600, 1, 2);
+    const IdData data = simulated_data(600, 1, 2);
     const Vector y = data.experiments[0].y, u = data.experiments[0].u;
     const Matrix Phi = regressors(y, u, 2);
     const Vector target = y.tail(598);
@@ -81,7 +81,7 @@ TEST(iv4, colored_noise_does_not_bias_it) {  // oracle: statistics with fixed se
     Matrix thetas(4, kRuns), errors(4, kRuns);
     double arx_error = 0;
     for (Index run = 0; run < kRuns; ++run) {
-        const IdData data = colored_record(1000, static_cast<std::uint32_t>(run + 1));
+        const IdData data = colored_data(1000, static_cast<std::uint32_t>(run + 1));
         const auto result = iv4(data, kOrders);
         thetas.col(run) = result.theta;
         errors.col(run) = result.std;
@@ -99,9 +99,10 @@ TEST(iv4, colored_noise_does_not_bias_it) {  // oracle: statistics with fixed se
 TEST(iv4, refuses_what_it_cannot_fit) {  // oracle: definitions
     PolynomialOrders other = kOrders;
     other.nc = 1;
-    EXPECT_THAT(thrown_message([&] { iv4(record(100, 0.1, 1), other); }), HasSubstr("nd and nf must be zero"));
-    EXPECT_THAT(thrown_message([&] { iv4(record(6, 0.1, 1), kOrders); }), HasSubstr("iv4 needs more equations"));
-    EXPECT_NE(thrown_message([&] { iv4(record(8, 0.1, 1), kOrders); }), "");
+    EXPECT_THAT(thrown_message([&] { iv4(simulated_data(100, 0.1, 1), other); }), HasSubstr("nd and nf must be zero"));
+    EXPECT_THAT(thrown_message([&] { iv4(simulated_data(6, 0.1, 1), kOrders); }),
+                HasSubstr("iv4 needs more equations"));
+    EXPECT_NE(thrown_message([&] { iv4(simulated_data(8, 0.1, 1), kOrders); }), "");
 }
 
 }  // namespace test_iv4

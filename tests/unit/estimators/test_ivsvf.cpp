@@ -22,7 +22,7 @@ SvfOptions cutoff(double lambda) {
 
 // oracle: residual of the definition, with stored columns from lsim
 TEST(ivsvf, solves_the_equations_of_its_definition) {
-    const IdData data = course_record(0.2, 3);
+    const IdData data = course_system_data(0.2, 3);
     const Vector y = data.experiments[0].y.col(0), u = data.experiments[0].u.col(0);
     for (const double delay : {0.0, 0.07, 0.0537}) {
         const TransferStructure structure = TransferStructure::single(2, 0, delay);
@@ -40,14 +40,14 @@ TEST(ivsvf, solves_the_equations_of_its_definition) {
 }
 
 TEST(ivsvf, irregular_instants_that_are_regular_give_the_same) {  // oracle: second route
-    const IdData data = course_record(0.2, 8);
+    const IdData data = course_system_data(0.2, 8);
     const IdData irregular(data.experiments[0].y, data.experiments[0].u, data.time());
     EXPECT_LT(relative_difference(ivsvf(irregular, kCourse, cutoff(3)).theta, ivsvf(data, kCourse, cutoff(3)).theta),
               1e-7);
 }
 
 TEST(ivsvf, refuses_what_lssvf_refuses) {  // oracle: the sentence names the method and the fault
-    const IdData data = course_record(0.2, 1);
+    const IdData data = course_system_data(0.2, 1);
     EXPECT_NE(thrown_message([&] { ivsvf(data, kCourse, cutoff(-1)); }).find("lambda"), std::string::npos);
     const std::string message = thrown_message([&] { ivsvf(data.range(1, 4), kCourse, cutoff(3)); });
     EXPECT_EQ(message.find("ivsvf: "), 0u) << message;

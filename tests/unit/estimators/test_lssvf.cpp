@@ -23,7 +23,7 @@ SvfOptions cutoff(double lambda) {
 const TransferStructure kCourse = TransferStructure::single(2, 0);
 
 TEST(lssvf, equals_least_squares_on_the_columns_of_svf) {  // oracle: second route, stored columns and QR
-    const IdData data = course_record(0.2, 3);
+    const IdData data = course_system_data(0.2, 3);
     const Matrix y = state_variable_filter(data.experiments[0].y.col(0), 2, 3, 0.01, Hold::kFoh);
     const Matrix u = state_variable_filter(data.experiments[0].u.col(0), 2, 3, 0.01, Hold::kZoh);
     Matrix Phi(y.rows(), 3);
@@ -57,7 +57,7 @@ TEST(lssvf, long_records_keep_the_errors_of_a_white_equation_error_and_say_so) {
 }
 
 TEST(lssvf, delay_of_whole_samples_equals_shifted_input) {  // oracle: shift invariance
-    const IdData data = course_record(0.2, 4);
+    const IdData data = course_system_data(0.2, 4);
     const Matrix u = data.experiments[0].u;
     Matrix late = Matrix::Zero(u.rows(), 1);
     late.bottomRows(u.rows() - 7) = u.topRows(u.rows() - 7);
@@ -69,7 +69,7 @@ TEST(lssvf, delay_of_whole_samples_equals_shifted_input) {  // oracle: shift inv
 }
 
 TEST(lssvf, poisson_moment_functionals_give_the_same_parameters) {  // oracle: the gain cancels
-    const IdData data = course_record(0.2, 5);
+    const IdData data = course_system_data(0.2, 5);
     SvfOptions options = cutoff(3);
     options.beta = 12.5;
     EXPECT_LT(relative_difference(lssvf(data, kCourse, options).theta, lssvf(data, kCourse, cutoff(3)).theta), 1e-10);
@@ -89,27 +89,27 @@ TEST(lssvf, fast_sampling_without_noise_gives_the_truth_for_several_inputs) {  /
 }
 
 TEST(lssvf, order_of_experiments_does_not_matter) {  // oracle: invariance
-    const IdData a = course_record(0.2, 6), b = course_record(0.2, 7);
+    const IdData a = course_system_data(0.2, 6), b = course_system_data(0.2, 7);
     const Vector one = lssvf(IdData::merge({a, b}), kCourse, cutoff(3)).theta;
     EXPECT_LT(relative_difference(one, lssvf(IdData::merge({b, a}), kCourse, cutoff(3)).theta), 1e-12);
     EXPECT_GT(relative_difference(one, lssvf(a, kCourse, cutoff(3)).theta), 1e-3);
 }
 
 TEST(lssvf, irregular_instants_that_are_regular_give_the_same) {  // oracle: second route through matrix exponentials
-    const IdData data = course_record(0.2, 8);
+    const IdData data = course_system_data(0.2, 8);
     const IdData irregular(data.experiments[0].y, data.experiments[0].u, data.time());
     EXPECT_LT(relative_difference(lssvf(irregular, kCourse, cutoff(3)).theta, lssvf(data, kCourse, cutoff(3)).theta),
               1e-7);
 }
 
 TEST(lssvf, warns_of_a_cutoff_far_from_the_band) {  // oracle: the system's poles are -1 and -3
-    const IdData data = course_record(0, 1);
+    const IdData data = course_system_data(0, 1);
     EXPECT_NE(message_text(lssvf(data, kCourse, cutoff(100)).full_message()).find("choose lambda"), std::string::npos);
     EXPECT_EQ(message_text(lssvf(data, kCourse, cutoff(3)).full_message()).find("choose lambda"), std::string::npos);
 }
 
 TEST(lssvf, refuses_bad_input_in_words) {  // oracle: the sentence names what is wrong
-    const IdData data = course_record(0.2, 1);
+    const IdData data = course_system_data(0.2, 1);
     const auto says = [&](const IdData& d, const TransferStructure& s, const SvfOptions& o, const std::string& words) {
         EXPECT_NE(thrown_message([&] { lssvf(d, s, o); }).find(words), std::string::npos)
             << thrown_message([&] { lssvf(d, s, o); });
@@ -130,8 +130,8 @@ TEST(lssvf, refused_constant_input_is_no_experiment) {  // oracle: justification
     const Vector u = Vector::Ones(200);
     const TransferFunction fast(values({8}), values({1, 6, 4})), slow(values({2}), values({1, 3, 1}));
     EXPECT_EQ(fast.dc_gain(), slow.dc_gain());
-    const IdData record(Matrix(2 * u), Matrix(u), 0.1);
-    EXPECT_FALSE(thrown_message([&] { lssvf(record, kCourse, cutoff(3)); }).empty());
+    const IdData data_set(Matrix(2 * u), Matrix(u), 0.1);
+    EXPECT_FALSE(thrown_message([&] { lssvf(data_set, kCourse, cutoff(3)); }).empty());
 }
 
 }  // namespace test_lssvf

@@ -35,7 +35,7 @@ Matrix noise(Index N, Index columns, std::uint32_t seed) {
     return RandomStream(seed).normal(N * columns).reshaped(N, columns);
 }
 
-IdData record(const StateSpace& system, Index N, double sigma, std::uint32_t seed) {
+IdData simulated_data(const StateSpace& system, Index N, double sigma, std::uint32_t seed) {
     const Matrix u = noise(N, system.B.cols(), seed).array() + 0.5;
     const Vector x0 = noise(system.order(), 1, seed + 1);
     return IdData(Matrix(simulated(system, u, x0) + sigma * noise(N, system.C.rows(), seed + 2)), u, 0.1);
@@ -75,7 +75,8 @@ TEST(n4sid, recovers_noise_free_systems) {  // oracle: the simulated system
     for (const bool feedthrough : {false, true})
         for (const SubspaceWeighting weighting : kWeightings)
             for (const StateSpace& system : {square_system(feedthrough), single(square_system(feedthrough))}) {
-                const IdData data = IdData::merge({record(system, 400, 0, 1), record(system, 300, 0, 5)});
+                const IdData data =
+                    IdData::merge({simulated_data(system, 400, 0, 1), simulated_data(system, 300, 0, 5)});
                 const auto result = n4sid(data, 3, with(weighting, feedthrough));
                 EXPECT_LT(distance(result.system.A.eigenvalues(), system.A.eigenvalues()), 1e-7);
                 EXPECT_LT(markov_distance(result.system, system), 1e-7) << message_text(result.fit.full_message());
@@ -86,7 +87,7 @@ TEST(n4sid, recovers_noise_free_systems) {  // oracle: the simulated system
 
 TEST(n4sid, transfer_functions_are_those_of_the_system) {  // oracle: the impulse response
     const StateSpace system = square_system(true);
-    const auto result = n4sid(record(system, 500, 0, 3), 3, with(SubspaceWeighting::kMoesp, true));
+    const auto result = n4sid(simulated_data(system, 500, 0, 3), 3, with(SubspaceWeighting::kMoesp, true));
     ASSERT_EQ(result.fit.models.size(), 4u);
     const Complex z = std::polar(1.0, 0.7);
     const Eigen::MatrixXcd inverse = (z * Eigen::MatrixXcd::Identity(3, 3) - system.A).inverse();
@@ -100,7 +101,7 @@ TEST(n4sid, transfer_functions_are_those_of_the_system) {  // oracle: the impuls
 // Oracle: the definition, with the projections written down as N x N matrices.
 TEST(n4sid, singular_values_are_those_of_the_projected_future) {
     const StateSpace system = single(square_system(false));
-    const IdData data = record(system, 150, 0.5, 7);
+    const IdData data = simulated_data(system, 150, 0.5, 7);
     const Index s = 6, N = 150 - 2 * s + 1;
     Matrix future_u(N, s), past(N, 2 * s), future_y(N, s);
     for (Index i = 0; i < s; ++i) {
@@ -129,7 +130,7 @@ TEST(n4sid, singular_values_are_those_of_the_projected_future) {
 }
 
 TEST(n4sid, inputs_enter_with_the_least_simulation_error) {  // oracle: the loss nearby
-    const IdData data = record(square_system(true), 400, 0.5, 9);
+    const IdData data = simulated_data(square_system(true), 400, 0.5, 9);
     const auto result = n4sid(data, 3, with(SubspaceWeighting::kMoesp, true));
     const Experiment& experiment = data.experiments[0];
     const Vector weights = experiment.y.cwiseAbs().colwise().maxCoeff().cwiseInverse().transpose();
@@ -160,7 +161,7 @@ TEST(n4sid, noise_averages_out) {  // oracle: consistency, error ~ 1/sqrt(N), fi
         double shorter = 0, longer = 0;
         for (std::uint32_t seed = 1; seed <= 10; ++seed) {
             const auto error = [&](Index N) {
-                const auto result = n4sid(record(system, N, 0.5, 10 * seed), 3, with(weighting, false));
+                const auto result = n4sid(simulated_data(system, N, 0.5, 10 * seed), 3, with(weighting, false));
                 return std::pow(distance(result.system.A.eigenvalues(), system.A.eigenvalues()), 2);
             };
             shorter += error(1000);
@@ -172,12 +173,12 @@ TEST(n4sid, noise_averages_out) {  // oracle: consistency, error ~ 1/sqrt(N), fi
 }
 
 TEST(n4sid, reports_more_states_than_the_data_show) {  // oracle: the simulated order
-    const auto result = n4sid(record(square_system(false), 400, 0, 1), 6);
+    const auto result = n4sid(simulated_data(square_system(false), 400, 0, 1), 6);
     EXPECT_THAT(message_text(result.fit.full_message()), HasSubstr("The data support only 3 states"));
 }
 
 TEST(n4sid, refuses_what_it_cannot_use) {  // oracle: definitions
-    const IdData data = record(square_system(false), 400, 0.1, 1);
+    const IdData data = simulated_data(square_system(false), 400, 0.1, 1);
     const Matrix y = data.experiments[0].y, u = data.experiments[0].u;
     const auto refusal = [](const IdData& given, int order, SubspaceOptions options = {}) {
         return thrown_message([&] { n4sid(given, order, options); });

@@ -272,8 +272,8 @@ TEST(procsrivc, heat_exchanger_just_works) {  // oracle: physical truth, standar
     const HeatExchangerParameters p;
     const auto truth = heat_exchanger_truth(p);
     for (std::uint32_t seed = 1; seed <= 10; ++seed) {
-        const auto record = simulate_heat_exchanger(p, seed);
-        const auto result = fit(siso(record.y, record.u, p.Ts), "P1");
+        const auto data_set = simulate_heat_exchanger(p, seed);
+        const auto result = fit(siso(data_set.y, data_set.u, p.Ts), "P1");
         EXPECT_EQ(result.start.state, InitialState::kSteady) << message_text(result.full_message());
         EXPECT_TRUE(result.start.offset);
         EXPECT_NEAR(result.theta[0], truth.gain, 4 * result.std[0]) << seed;
@@ -288,14 +288,14 @@ TEST(procsrivc, heat_exchanger_with_the_operating_point_removed) {  // oracle: p
     HeatExchangerParameters p;
     p.noise_std = p.resolution = 0;
     const auto truth = heat_exchanger_truth(p);
-    const auto record = simulate_heat_exchanger(p, 1);
+    const auto data_set = simulate_heat_exchanger(p, 1);
     ProcsrivcOptions options = tight();
     options.offset = Offset::kRemove;
-    const auto result = fit(siso(record.y, record.u, p.Ts), "P1", options);
+    const auto result = fit(siso(data_set.y, data_set.u, p.Ts), "P1", options);
     EXPECT_NEAR(result.theta[0] / truth.gain, 1, 1e-9);
     EXPECT_NEAR(result.theta[1] / truth.time_constant, 1, 1e-9);
     EXPECT_NEAR(result.removed[0][0].output, truth.initial_output, 1e-12);
-    EXPECT_LT((result.output - record.y).cwiseAbs().maxCoeff(), 1e-8);
+    EXPECT_LT((result.output - data_set.y).cwiseAbs().maxCoeff(), 1e-8);
 }
 
 TEST(procsrivc, offsets_hold_the_operating_point_that_was_taken_off) {  // oracle: the model simulated about it
@@ -317,8 +317,8 @@ TEST(procsrivc, suspension_just_works) {  // oracle: physical truth, standard er
     const SuspensionParameters p;
     const auto truth = suspension_truth(p);
     for (std::uint32_t seed = 1; seed <= 10; ++seed) {
-        const auto record = simulate_suspension(p, seed);
-        const auto result = fit(siso(record.y, record.u, p.Ts), "P2U");
+        const auto data_set = simulate_suspension(p, seed);
+        const auto result = fit(siso(data_set.y, data_set.u, p.Ts), "P2U");
         EXPECT_NEAR(result.theta[0], truth.gain, 4 * result.std[0]) << seed << message_text(result.full_message());
         EXPECT_NEAR(result.theta[1], 1 / truth.natural_frequency, 4 * result.std[1]) << seed;
         EXPECT_NEAR(result.theta[2], truth.damping_ratio, 4 * result.std[2]) << seed;

@@ -21,14 +21,14 @@ FitOptions exact() {
 }
 
 TEST(rivc, noise_free_records_give_the_truth) {  // oracle: the simulated system
-    const Fit found = rivc(course_record(0, 1), kCourse, {1, 2}, exact());
+    const Fit found = rivc(course_system_data(0, 1), kCourse, {1, 2}, exact());
     EXPECT_LT(relative_difference(found.theta, values({4, 3, 2})), 1e-9) << message_text(found.full_message());
     EXPECT_TRUE(found.std.allFinite());
 }
 
 TEST(rivc, without_a_noise_model_it_is_srivc) {  // oracle: srivc's fixed point
     for (const char* set : {"sys2_s0.2_seed1", "sys2_s0.4_seed1", "rg_snr10_seed1"}) {
-        const IdData data = reference_record(set, 0.01);
+        const IdData data = reference_data(set, 0.01);
         const TransferStructure structure = set[0] == 'r' ? TransferStructure::single(4, 1) : kCourse;
         const Fit a = rivc(data, structure, {0, 0}, exact());
         const Fit b = srivc(data, structure, exact());
@@ -42,7 +42,7 @@ TEST(rivc, without_a_noise_model_it_is_srivc) {  // oracle: srivc's fixed point
 // oracle: the published test problem's system and noise
 TEST(rivc, finds_model_and_noise_within_their_errors) {
     for (const std::uint32_t seed : {1, 2, 3}) {
-        const Fit found = rivc(ColoredProblem().record(seed), kCourse, {1, 2});
+        const Fit found = rivc(ColoredProblem().simulated_data(seed), kCourse, {1, 2});
         EXPECT_EQ(found.termination, Termination::kConverged) << message_text(found.full_message());
         const Vector truth = values({4, 3, 2});
         for (Index i = 0; i < 3; ++i) EXPECT_NEAR(found.theta[i], truth[i], 3 * found.std[i]) << seed;
@@ -54,7 +54,7 @@ TEST(rivc, finds_model_and_noise_within_their_errors) {
 
 // oracle: the definition, instruments orthogonal to the prediction error, with sensitivities by differences
 TEST(rivc, instruments_are_orthogonal_to_the_prediction_error) {
-    const IdData data = ColoredProblem().record(4);
+    const IdData data = ColoredProblem().simulated_data(4);
     const Fit found = rivc(data, kCourse, {1, 2}, exact());
     ArmaNoise noise = ArmaNoise::white(1, 2);
     noise.C = found.noise->C;
@@ -119,7 +119,7 @@ TEST(rivc, a_record_cut_from_a_running_experiment) {
 }
 
 TEST(rivc, refuses_what_it_cannot_do) {
-    const IdData data = ColoredProblem().record(1);
+    const IdData data = ColoredProblem().simulated_data(1);
     const Matrix u = data.experiments[0].u, y = data.experiments[0].y;
     Vector t = Vector::LinSpaced(u.rows(), 0, 50);
     t[3] += 0.01;
@@ -143,12 +143,12 @@ TEST(rivc, refuses_what_it_cannot_do) {
 TEST(rivc, always_answers) {
     FitOptions options;
     options.max_iterations = 1;
-    const Fit stopped = rivc(ColoredProblem().record(1), kCourse, {1, 2}, options);
+    const Fit stopped = rivc(ColoredProblem().simulated_data(1), kCourse, {1, 2}, options);
     EXPECT_EQ(stopped.termination, Termination::kIterationLimit);
     EXPECT_TRUE(stopped.theta.allFinite() && stopped.std.allFinite());
     EXPECT_NE(message_text(stopped.full_message()).find("`max_iterations` = 1"), std::string::npos);
     options.cancel = [] { return true; };
-    EXPECT_TRUE(rivc(ColoredProblem().record(1), kCourse, {1, 2}, options).theta.allFinite());
+    EXPECT_TRUE(rivc(ColoredProblem().simulated_data(1), kCourse, {1, 2}, options).theta.allFinite());
 }
 
 }  // namespace test_rivc

@@ -28,7 +28,7 @@ FitOptions exact() {
 }
 
 TEST(srivc, output_error_is_orthogonal_to_its_sensitivities) {  // oracle: stationarity of the output-error criterion
-    const IdData data = course_record(0.4, 11);
+    const IdData data = course_system_data(0.4, 11);
     const Fit found = srivc(data, kCourse, exact());
     EXPECT_EQ(found.termination, Termination::kConverged);
     const Vector den = found.models[0].den(), num = found.models[0].num();
@@ -43,22 +43,22 @@ TEST(srivc, output_error_is_orthogonal_to_its_sensitivities) {  // oracle: stati
 }
 
 TEST(srivc, noise_free_records_give_the_truth) {  // oracle: the simulated system
-    EXPECT_LT(relative_difference(srivc(course_record(0, 1), kCourse, exact()).theta, values({4, 3, 2})), 1e-9);
-    EXPECT_LT(relative_difference(
-                  srivc(reference_record("rg_noisefree", 0.01), TransferStructure::single(4, 1), exact()).theta,
-                  values({5, 408, 416, 1600, -6400, 1600})),
-              1e-9);
+    EXPECT_LT(relative_difference(srivc(course_system_data(0, 1), kCourse, exact()).theta, values({4, 3, 2})), 1e-9);
+    EXPECT_LT(
+        relative_difference(srivc(reference_data("rg_noisefree", 0.01), TransferStructure::single(4, 1), exact()).theta,
+                            values({5, 408, 416, 1600, -6400, 1600})),
+        1e-9);
 }
 
 TEST(srivc, hold_of_the_output_does_not_move_the_result) {  // oracle: the criterion knows no hold of y
-    const IdData data = course_record(0.2, 12);
+    const IdData data = course_system_data(0.2, 12);
     FitOptions zoh = exact();
     zoh.hold_y = Hold::kZoh;
     EXPECT_LT(relative_difference(srivc(data, kCourse, zoh).theta, srivc(data, kCourse, exact()).theta), 1e-8);
 }
 
 TEST(srivc, start_does_not_move_the_result) {  // oracle: the fixed point knows no start
-    const IdData data = course_record(0.2, 13);
+    const IdData data = course_system_data(0.2, 13);
     const Vector expected = srivc(data, kCourse, exact()).theta;
     for (const double lambda : {0.5, 3.0, 25.0}) {
         FitOptions options = exact();
@@ -108,7 +108,7 @@ TEST(srivc, long_records_start_on_their_beginning) {  // oracle: the same fixed 
 }
 
 TEST(srivc, stops_when_asked_to_and_still_gives_a_model) {  // oracle: definition of the callback
-    const IdData data = course_record(0.2, 14);
+    const IdData data = course_system_data(0.2, 14);
     FitOptions options;
     options.lambda = 3;
     int asked = 0;
@@ -120,7 +120,7 @@ TEST(srivc, stops_when_asked_to_and_still_gives_a_model) {  // oracle: definitio
 }
 
 TEST(srivc, refuses_bad_input_in_words) {  // oracle: the sentence names what is wrong
-    const IdData data = course_record(0.2, 1);
+    const IdData data = course_system_data(0.2, 1);
     FitOptions options;
     options.tolerance = -1;
     EXPECT_NE(thrown_message([&] { srivc(data, kCourse, options); }).find("`tolerance`"), std::string::npos);
@@ -184,13 +184,13 @@ TEST(srivc, passes_suffice_for_fixed_delays_from_rest_with_one_denominator) {  /
 
 // oracle: the passes alone
 TEST(srivc, result_equals_the_passes_where_they_settle) {
-    const IdData data = course_record(0.4, 11);
+    const IdData data = course_system_data(0.4, 11);
     const TransferStructure structure = TransferStructure::single(2, 0);
     EXPECT_EQ(srivc(data, structure).theta, srivc_by_passes(data, structure, {}).theta);
 }
 
 TEST(srivc, search_from_a_given_start_ends_at_the_same_minimum) {  // oracle: the least loss is the same from anywhere
-    const IdData data = course_record(0.4, 11);
+    const IdData data = course_system_data(0.4, 11);
     const TransferStructure structure = TransferStructure::single(2, 0);
     SearchAids aids;
     aids.start = Vector(srivc(data, structure).theta * 1.2);

@@ -24,7 +24,7 @@ struct Experimental {
 };
 
 // offset + K u_before at rest, then the unit step response `rise(t)` scaled to the step.
-IdData record_of(const Experimental& e, double K, const std::function<double(double)>& rise) {
+IdData data_of(const Experimental& e, double K, const std::function<double(double)>& rise) {
     RandomStream random(e.seed);
     Matrix y(e.N, 1), u(e.N, 1);
     for (Index k = 0; k < e.N; ++k) {
@@ -64,13 +64,13 @@ std::string refusal(const std::function<void()>& action) {
 TEST(step_test,
      first_order_recovers_a_clean_response) {  // oracle: analytic; ln 20 time constants to 5 %, read as three
     const Experimental e;
-    const auto result = step_first_order(record_of(e, 2.5, first_order(0.8)));
+    const auto result = step_first_order(data_of(e, 2.5, first_order(0.8)));
     EXPECT_NEAR(parameter(result, "K"), 2.5, 2.5 * 1e-3);
     EXPECT_NEAR(parameter(result, "T"), 0.8 * std::log(20.0) / 3, 0.8 * 5e-3);
     EXPECT_NEAR(result.model.dc_gain(), parameter(result, "K"), 1e-12);
     ASSERT_EQ(result.points.size(), 1u);
     EXPECT_NEAR(result.points[0].time, 1 + 3 * parameter(result, "T"), 1e-12);
-    EXPECT_NEAR(result.points[0].value, 0.95 * result.record.final.value, 1e-3);
+    EXPECT_NEAR(result.points[0].value, 0.95 * result.step_data.final.value, 1e-3);
 }
 
 TEST(step_test, works_from_any_level_in_either_direction) {  // oracle: invariance of the readings
@@ -78,14 +78,14 @@ TEST(step_test, works_from_any_level_in_either_direction) {  // oracle: invarian
     shifted.u_before = 7;
     shifted.u_after = 4;
     shifted.offset = -30;
-    const auto a = step_first_order(record_of(plain, 2.5, first_order(0.8)));
-    const auto b = step_first_order(record_of(shifted, 2.5, first_order(0.8)));
+    const auto a = step_first_order(data_of(plain, 2.5, first_order(0.8)));
+    const auto b = step_first_order(data_of(shifted, 2.5, first_order(0.8)));
     EXPECT_NEAR(parameter(a, "K"), parameter(b, "K"), 1e-9);
     EXPECT_NEAR(parameter(a, "T"), parameter(b, "T"), 1e-9);
-    EXPECT_NEAR(b.record.initial.value, -30 + 2.5 * 7, 1e-9);
-    EXPECT_EQ(b.record.input_before, 7);
-    EXPECT_EQ(b.record.input_after, 4);
-    EXPECT_NEAR(b.record.step_time, 1, 1e-12);
+    EXPECT_NEAR(b.step_data.initial.value, -30 + 2.5 * 7, 1e-9);
+    EXPECT_EQ(b.step_data.input_before, 7);
+    EXPECT_EQ(b.step_data.input_after, 4);
+    EXPECT_NEAR(b.step_data.step_time, 1, 1e-12);
 }
 
 TEST(step_test, constant_input_is_a_step_at_the_first_sample) {  // oracle: invariance of the readings
@@ -93,20 +93,20 @@ TEST(step_test, constant_input_is_a_step_at_the_first_sample) {  // oracle: inva
     late.N = 1000;
     at_once.N = 900;
     at_once.step = 0;
-    const auto a = step_second_order(record_of(late, 1.5, second_order(0.2, 6)));
-    const auto b = step_second_order(record_of(at_once, 1.5, second_order(0.2, 6)));
+    const auto a = step_second_order(data_of(late, 1.5, second_order(0.2, 6)));
+    const auto b = step_second_order(data_of(at_once, 1.5, second_order(0.2, 6)));
     EXPECT_NEAR(parameter(a, "K"), parameter(b, "K"), 1e-9);
     EXPECT_NEAR(parameter(a, "z"), parameter(b, "z"), 1e-9);
     EXPECT_NEAR(parameter(a, "w0"), parameter(b, "w0"), 1e-9);
-    EXPECT_EQ(b.record.input_before, 0);
-    EXPECT_EQ(b.record.initial.value, 0);
+    EXPECT_EQ(b.step_data.input_before, 0);
+    EXPECT_EQ(b.step_data.initial.value, 0);
 }
 
 TEST(step_test, second_order_recovers_a_clean_response) {  // oracle: analytic
     for (double z : {0.1, 0.3, 0.6}) {
         Experimental e;
         e.N = 2000;
-        const auto result = step_second_order(record_of(e, -0.7, second_order(z, 5)));
+        const auto result = step_second_order(data_of(e, -0.7, second_order(z, 5)));
         EXPECT_NEAR(parameter(result, "K"), -0.7, 0.7 * 2e-3) << z;
         EXPECT_NEAR(parameter(result, "z"), z, 2e-3) << z;
         EXPECT_NEAR(parameter(result, "w0"), 5, 5 * 3e-3) << z;
@@ -117,14 +117,14 @@ TEST(step_test, second_order_recovers_a_clean_response) {  // oracle: analytic
 TEST(step_test, delayed_recovers_a_clean_response) {  // oracle: analytic
     Experimental e;
     e.N = 1500;
-    const auto result = step_delayed(record_of(e, 3, first_order(0.9, 0.55)));
+    const auto result = step_delayed(data_of(e, 3, first_order(0.9, 0.55)));
     EXPECT_NEAR(parameter(result, "K"), 3, 3e-3);
     EXPECT_NEAR(parameter(result, "T"), 0.9, 0.9 * 5e-3);
     EXPECT_NEAR(parameter(result, "D"), 0.55, 0.01);
     EXPECT_NEAR(result.model.delay(), parameter(result, "D"), 1e-15);
     ASSERT_EQ(result.points.size(), 2u);
-    EXPECT_NEAR(result.points[0].value / result.record.final.value, 0.283, 1e-3);
-    EXPECT_NEAR(result.points[1].value / result.record.final.value, 0.632, 1e-3);
+    EXPECT_NEAR(result.points[0].value / result.step_data.final.value, 0.283, 1e-3);
+    EXPECT_NEAR(result.points[1].value / result.step_data.final.value, 0.632, 1e-3);
     EXPECT_NEAR(result.points[0].time, 1 + 0.55 + 0.9 / 3, 0.01);
 }
 
@@ -133,7 +133,7 @@ TEST(step_test, delayed_without_delay_says_so) {  // oracle: analytic
     e.noise = 1e-3;
     double least = 1;
     for (e.seed = 1; e.seed < 20; ++e.seed) {
-        const auto result = step_delayed(record_of(e, 1, first_order(0.9)));
+        const auto result = step_delayed(data_of(e, 1, first_order(0.9)));
         EXPECT_GE(parameter(result, "D"), 0);
         EXPECT_LT(parameter(result, "D"), 0.02);
         EXPECT_EQ(parameter(result, "D") == 0,
@@ -147,12 +147,12 @@ TEST(step_test, reads_the_heat_exchanger_through_its_noise) {  // oracle: physic
     const HeatExchangerParameters p;
     const auto truth = heat_exchanger_truth(p);
     for (std::uint32_t seed = 1; seed <= 50; ++seed) {
-        const auto record = simulate_heat_exchanger(p, seed);
-        const auto result = step_first_order(IdData(record.y, record.u, p.Ts));
+        const auto step_data = simulate_heat_exchanger(p, seed);
+        const auto result = step_first_order(IdData(step_data.y, step_data.u, p.Ts));
         EXPECT_NEAR(parameter(result, "K") / truth.gain, 1, 0.02) << seed;
         EXPECT_NEAR(parameter(result, "T") / truth.time_constant, 1, 0.1) << seed;
-        EXPECT_NEAR(result.record.initial.value, truth.initial_output, 0.1) << seed;
-        EXPECT_NEAR(result.record.noise_std, p.noise_std, 0.3 * p.noise_std) << seed;
+        EXPECT_NEAR(result.step_data.initial.value, truth.initial_output, 0.1) << seed;
+        EXPECT_NEAR(result.step_data.noise_std, p.noise_std, 0.3 * p.noise_std) << seed;
     }
 }
 
@@ -160,8 +160,8 @@ TEST(step_test, reads_the_suspension_through_its_noise) {  // oracle: physical t
     const SuspensionParameters p;
     const auto truth = suspension_truth(p);
     for (std::uint32_t seed = 1; seed <= 50; ++seed) {
-        const auto record = simulate_suspension(p, seed);
-        const auto result = step_second_order(IdData(record.y, record.u, p.Ts));
+        const auto step_data = simulate_suspension(p, seed);
+        const auto result = step_second_order(IdData(step_data.y, step_data.u, p.Ts));
         EXPECT_NEAR(parameter(result, "K") / truth.gain, 1, 0.02) << seed;
         EXPECT_NEAR(parameter(result, "z") / truth.damping_ratio, 1, 0.05) << seed;
         EXPECT_NEAR(parameter(result, "w0") / truth.natural_frequency, 1, 0.03) << seed;
@@ -170,7 +170,7 @@ TEST(step_test, reads_the_suspension_through_its_noise) {  // oracle: physical t
 
 TEST(step_test, survives_an_outlier) {  // oracle: definition of a robust level
     Experimental e;
-    IdData data = record_of(e, 2, first_order(0.8));
+    IdData data = data_of(e, 2, first_order(0.8));
     data.experiments[0].y(50, 0) = 40;
     data.experiments[0].y(990, 0) = -40;
     const auto result = step_delayed(data);
@@ -196,20 +196,20 @@ TEST(step_test, reads_irregular_samples) {  // oracle: analytic
 
 TEST(step_test, refuses_an_input_that_is_no_step) {
     Experimental e;
-    IdData pulse = record_of(e, 1, first_order(0.5));
+    IdData pulse = data_of(e, 1, first_order(0.5));
     pulse.experiments[0].u.bottomRows(200).setZero();
     EXPECT_THAT(refusal([&] { step_first_order(pulse); }), HasSubstr("changes 2 times"));
-    IdData stairs = record_of(e, 1, first_order(0.5));
+    IdData stairs = data_of(e, 1, first_order(0.5));
     stairs.experiments[0].u.middleRows(300, 50).setConstant(0.7);
     EXPECT_THAT(refusal([&] { step_first_order(stairs); }), HasSubstr("but the two levels"));
-    IdData nothing = record_of(e, 1, first_order(0.5));
+    IdData nothing = data_of(e, 1, first_order(0.5));
     nothing.experiments[0].u.setZero();
     EXPECT_THAT(refusal([&] { step_first_order(nothing); }), HasSubstr("zero throughout"));
 }
 
 TEST(step_test, accepts_a_noisy_step_input) {  // oracle: the same data with a clean input
     Experimental e;
-    IdData data = record_of(e, 2, first_order(0.5));
+    IdData data = data_of(e, 2, first_order(0.5));
     const auto clean = step_first_order(data);
     RandomStream random(2);
     for (Index k = 0; k < e.N; ++k) data.experiments[0].u(k, 0) += 0.02 * (random.uniform() - 0.5);
@@ -219,36 +219,35 @@ TEST(step_test, accepts_a_noisy_step_input) {  // oracle: the same data with a c
 TEST(step_test, refuses_a_response_that_has_not_settled) {  // justified: the final level would be 10 % off
     Experimental e;
     e.N = 100 + 230;
-    EXPECT_THAT(refusal([&] { step_first_order(record_of(e, 1, first_order(1))); }), HasSubstr("has not settled"));
+    EXPECT_THAT(refusal([&] { step_first_order(data_of(e, 1, first_order(1))); }), HasSubstr("has not settled"));
     e.N = 100 + 600;
-    EXPECT_NO_THROW(step_first_order(record_of(e, 1, first_order(1))));
+    EXPECT_NO_THROW(step_first_order(data_of(e, 1, first_order(1))));
     e.N = 1000;
-    EXPECT_THAT(refusal([&] { step_second_order(record_of(e, 1, second_order(0.01, 5))); }),
+    EXPECT_THAT(refusal([&] { step_second_order(data_of(e, 1, second_order(0.01, 5))); }),
                 HasSubstr("has not settled"));
 }
 
 TEST(step_test, refuses_a_response_without_overshoot) {  // justified: a first-order response has none
     Experimental e;
-    const IdData data = record_of(e, 1, first_order(0.8));
+    const IdData data = data_of(e, 1, first_order(0.8));
     EXPECT_THAT(refusal([&] { step_second_order(data); }), HasSubstr("does not overshoot"));
     EXPECT_NO_THROW(step_first_order(data));
     e.noise = 0.02;
-    EXPECT_THAT(refusal([&] { step_second_order(record_of(e, 1, first_order(0.8))); }),
-                HasSubstr("does not overshoot"));
+    EXPECT_THAT(refusal([&] { step_second_order(data_of(e, 1, first_order(0.8))); }), HasSubstr("does not overshoot"));
 }
 
 TEST(step_test, refuses_an_output_that_does_not_answer) {  // justified: it is noise alone
     Experimental e;
     e.noise = 0.1;
-    EXPECT_THAT(refusal([&] { step_first_order(record_of(e, 0, first_order(0.8))); }), HasSubstr("does not respond"));
+    EXPECT_THAT(refusal([&] { step_first_order(data_of(e, 0, first_order(0.8))); }), HasSubstr("does not respond"));
 }
 
 TEST(step_test, refuses_records_it_cannot_read) {
     Experimental e;
     e.N = 105;
-    EXPECT_THAT(refusal([&] { step_first_order(record_of(e, 1, first_order(0.8))); }), HasSubstr("5 samples"));
+    EXPECT_THAT(refusal([&] { step_first_order(data_of(e, 1, first_order(0.8))); }), HasSubstr("5 samples"));
     e.N = 1000;
-    EXPECT_THAT(refusal([&] { step_first_order(record_of(e, 1, first_order(1e-4))); }), HasSubstr("sample faster"));
+    EXPECT_THAT(refusal([&] { step_first_order(data_of(e, 1, first_order(1e-4))); }), HasSubstr("sample faster"));
     const IdData two_inputs(Matrix::Zero(50, 1), Matrix::Ones(50, 2), 1.0);
     EXPECT_THAT(refusal([&] { step_first_order(two_inputs); }), HasSubstr("one input"));
 }

@@ -27,8 +27,8 @@ PlantDrawing crane() {
     return rig;
 }
 
-MotionRecord record(Index count, double step) {
-    MotionRecord made;
+MotionData simulated_data(Index count, double step) {
+    MotionData made;
     made.t = Vector::LinSpaced(count, 0, step * static_cast<double>(count - 1));
     made.measured.resize(count, 2);
     made.measured.col(0) = 0.1 * made.t, made.measured.col(1) = 0.3 * made.t.array().sin();
@@ -61,7 +61,7 @@ TEST(motion_plot, parts_slide_turn_and_are_carried) {
 }
 
 TEST(motion_plot, shows_pictures_where_their_instants_lie) {
-    const MotionRecord all = record(401, 0.05);
+    const MotionData all = simulated_data(401, 0.05);
     const Figure figure = motion_plot(crane(), all, at(Vector{{15.0, 5.0}}));
     ASSERT_EQ(figure.panels.size(), 3u);
     const Panel& pictures = figure.panels[0];
@@ -92,22 +92,23 @@ TEST(motion_plot, shows_pictures_where_their_instants_lie) {
 }
 
 TEST(motion_plot, keeps_fifty_samples_a_second) {
-    const Figure fine = motion_plot(crane(), record(1001, 0.002));
+    const Figure fine = motion_plot(crane(), simulated_data(1001, 0.002));
     EXPECT_EQ(fine.panels[1].curves[0].x.size(), 101);  // 2 s
     EXPECT_NEAR(fine.panels[1].curves[0].x[7], 0.14, 1e-12);
-    EXPECT_EQ(motion_plot(crane(), record(101, 0.02)).panels[1].curves[0].x.size(), 101);
-    EXPECT_EQ(motion_plot(crane(), record(101, 0.02)).panels[1].references.size(), 4u);
+    EXPECT_EQ(motion_plot(crane(), simulated_data(101, 0.02)).panels[1].curves[0].x.size(), 101);
+    EXPECT_EQ(motion_plot(crane(), simulated_data(101, 0.02)).panels[1].references.size(), 4u);
 }
 
 TEST(motion_plot, goes_to_the_end_of_its_record_however_short) {
-    const Figure figure = motion_plot(crane(), record(3, 0.005));
+    const Figure figure = motion_plot(crane(), simulated_data(3, 0.005));
     EXPECT_EQ(figure.panels[1].curves[0].x, (Vector{{0.0, 0.01}}));
     const Vector late{{9.99}};
-    EXPECT_NEAR(motion_plot(crane(), record(2000, 0.005), at(late)).panels[1].curves[0].x.tail(1)[0], 9.995, 1e-12);
+    EXPECT_NEAR(motion_plot(crane(), simulated_data(2000, 0.005), at(late)).panels[1].curves[0].x.tail(1)[0], 9.995,
+                1e-12);
 }
 
 TEST(motion_plot, one_side_alone_will_do) {
-    MotionRecord alone = record(101, 0.1);
+    MotionData alone = simulated_data(101, 0.1);
     alone.measured.resize(0, 0);
     const Figure figure = motion_plot(crane(), alone);
     EXPECT_EQ(figure.panels[0].curves.size(), 2u);
@@ -116,7 +117,7 @@ TEST(motion_plot, one_side_alone_will_do) {
     EXPECT_TRUE(figure.motion->simulated);
 }
 
-std::string refusal(const PlantDrawing& rig, const MotionRecord& made, const MotionAppearance& look = {}) {
+std::string refusal(const PlantDrawing& rig, const MotionData& made, const MotionAppearance& look = {}) {
     try {
         motion_plot(rig, made, look);
     } catch (const InvalidArgument& error) {
@@ -126,25 +127,25 @@ std::string refusal(const PlantDrawing& rig, const MotionRecord& made, const Mot
 }
 
 TEST(motion_plot, says_what_does_not_fit) {
-    MotionRecord falling = record(10, 0.1);
+    MotionData falling = simulated_data(10, 0.1);
     falling.t[4] = falling.t[3];
     EXPECT_THAT(refusal(crane(), falling), HasSubstr("must increase, but instant 4 is 0.3"));
-    MotionRecord none = record(10, 0.1);
+    MotionData none = simulated_data(10, 0.1);
     none.measured.resize(0, 0), none.simulated.resize(0, 0);
     EXPECT_THAT(refusal(crane(), none), HasSubstr("measured or simulated"));
-    MotionRecord narrow = record(10, 0.1);
+    MotionData narrow = simulated_data(10, 0.1);
     narrow.measured = narrow.measured.leftCols(1).eval();
     EXPECT_THAT(refusal(crane(), narrow), HasSubstr("10 x 2, but they are 10 x 1"));
-    EXPECT_THAT(refusal(crane(), record(10, 0.1), at(Vector{{2.0}})), HasSubstr("range from 0 s to 0.9"));
-    EXPECT_THAT(refusal(crane(), record(10, 0.1), at(Vector{{0.5, 0.2, 0.5}})),
+    EXPECT_THAT(refusal(crane(), simulated_data(10, 0.1), at(Vector{{2.0}})), HasSubstr("range from 0 s to 0.9"));
+    EXPECT_THAT(refusal(crane(), simulated_data(10, 0.1), at(Vector{{0.5, 0.2, 0.5}})),
                 HasSubstr("0.5 s occurs twice in the list"));
     PlantDrawing wrong = crane();
     wrong.parts[1].on = 1;
-    EXPECT_THAT(refusal(wrong, record(10, 0.1)), HasSubstr("defined before that part"));
+    EXPECT_THAT(refusal(wrong, simulated_data(10, 0.1)), HasSubstr("defined before that part"));
     wrong = crane();
     wrong.pieces[0].part[1] = 2;
-    EXPECT_THAT(refusal(wrong, record(10, 0.1)), HasSubstr("a part that does not exist"));
-    Figure cut = motion_plot(crane(), record(10, 0.1));
+    EXPECT_THAT(refusal(wrong, simulated_data(10, 0.1)), HasSubstr("a part that does not exist"));
+    Figure cut = motion_plot(crane(), simulated_data(10, 0.1));
     cut.panels[2].curves.pop_back();
     EXPECT_THROW(cut.validate(), InvalidArgument);
 }

@@ -40,14 +40,14 @@ std::vector<NamedModel> models(int count) {
     return result;
 }
 
-IdData record(int seed) {
+IdData simulated_data(int seed) {
     RandomStream random(static_cast<std::uint32_t>(seed));
     const Vector u = random.normal(200).array().sign();
     return IdData(Matrix(lsim(second_order(0.4), u, 0.1) + 0.3 * random.normal(200)), Matrix(u), 0.1);
 }
 
 Figure compared(int count) {
-    const IdData data = record(1);
+    const IdData data = simulated_data(1);
     std::vector<ModelOutput> outputs;
     for (int i = 0; i < count; ++i)
         outputs.push_back({Message("G"), data.experiments[0].y * (1 - 0.1 * i), Vector::Constant(1, 80)});
@@ -55,7 +55,7 @@ Figure compared(int count) {
 }
 
 Figure residuals() {
-    const IdData data = record(2);
+    const IdData data = simulated_data(2);
     return residual_plot(residual_tests(data, {second_order(0.2)}), data);
 }
 
@@ -81,7 +81,7 @@ Figure constructed() {
 }
 
 std::vector<std::pair<std::string, Figure>> standard_figures() {
-    const IdData a = record(1), b = record(2), c = record(3), d = record(4);
+    const IdData a = simulated_data(1), b = simulated_data(2), c = simulated_data(3), d = simulated_data(4);
     return {{"plot", plain(12)},
             {"step", step_plot(models(6))},
             {"impulse", impulse_plot(models(4))},

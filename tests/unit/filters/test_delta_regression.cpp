@@ -75,24 +75,24 @@ class delta_regression : public testing::TestWithParam<Model> {
                             SCOPED_TRACE(std::string("input ") + (hold == Hold::kZoh ? "zoh" : "foh") + ", output " +
                                          (hold_y == Hold::kZoh ? "zoh" : "foh") + ", delay " + std::to_string(delay) +
                                          " s, " + std::to_string(m) + " zeros, " + std::to_string(inputs) + " inputs");
-                            RegressionRecord record{view(y_), {view(u_)}, {m}, {delay}, {kTs}, hold, hold_y};
+                            RegressionData data_set{view(y_), {view(u_)}, {m}, {delay}, {kTs}, hold, hold_y};
                             std::vector<Vector> B{Vector::LinSpaced(m + 1, 0.7, 2)};
                             if (inputs == 2) {
-                                record.u.push_back(view(v_));
-                                record.zeros.push_back(0);
-                                record.delays.push_back(0.02);
+                                data_set.u.push_back(view(v_));
+                                data_set.zeros.push_back(0);
+                                data_set.delays.push_back(0.02);
                                 B.push_back(Vector::Ones(1));
                             }
-                            f(record, B);
+                            f(data_set, B);
                         }
     }
     /// [phi, p^n y_f] with signals filtered by 1/A.
-    static Matrix regressors(const RegressionRecord& record, const Vector& A) {
+    static Matrix regressors(const RegressionData& data_set, const Vector& A) {
         const Index n = A.size() - 1;
-        const Matrix of_y = derivatives(record.y, A, n, record.hold_y, 0);
+        const Matrix of_y = derivatives(data_set.y, A, n, data_set.hold_y, 0);
         Matrix phi = -of_y.rightCols(n);
-        for (std::size_t j = 0; j < record.u.size(); ++j)
-            append(phi, derivatives(record.u[j], A, record.zeros[j], record.hold, record.delays[j]));
+        for (std::size_t j = 0; j < data_set.u.size(); ++j)
+            append(phi, derivatives(data_set.u[j], A, data_set.zeros[j], data_set.hold, data_set.delays[j]));
         append(phi, of_y.leftCols(1));
         return phi;
     }
@@ -120,30 +120,30 @@ class delta_regression : public testing::TestWithParam<Model> {
 // oracle of all: second route, every filtered signal stored by ExactFilter and multiplied out
 
 TEST_P(delta_regression, svf_sums_are_those_of_stored_signals) {
-    for_all([&](const RegressionRecord& record, const std::vector<Vector>&) {
-        const auto sums = delta_svf_equations(record, model_.A, 1);
+    for_all([&](const RegressionData& data_set, const std::vector<Vector>&) {
+        const auto sums = delta_svf_equations(data_set, model_.A, 1);
         ASSERT_TRUE(sums);
-        const Matrix phi = regressors(record, model_.A);
+        const Matrix phi = regressors(data_set, model_.A);
         expect_sums(*sums, phi.leftCols(phi.cols() - 1), phi, 1e-11);
         EXPECT_NEAR(sums->y_y / phi.rightCols(1).squaredNorm(), 1, 1e-11);
-        const auto scaled = delta_svf_equations(record, model_.A, 3);
+        const auto scaled = delta_svf_equations(data_set, model_.A, 3);
         ASSERT_TRUE(scaled);
         EXPECT_NEAR(scaled->y_y / sums->y_y, 9, 1e-14 * 9);
     });
 }
 
 TEST_P(delta_regression, refined_sums_are_those_of_stored_signals) {
-    for_all([&](const RegressionRecord& record, const std::vector<Vector>& B) {
-        const auto sums = delta_refined_equations(record, model_.A, B, true);
+    for_all([&](const RegressionData& data_set, const std::vector<Vector>& B) {
+        const auto sums = delta_refined_equations(data_set, model_.A, B, true);
         ASSERT_TRUE(sums);
         const Index n = model_.A.size() - 1;
-        const Matrix phi = regressors(record, model_.A);
+        const Matrix phi = regressors(data_set, model_.A);
         Matrix z = phi.leftCols(phi.cols() - 1);
         z.leftCols(n).setZero();
         for (std::size_t j = 0; j < B.size(); ++j)
-            z.leftCols(n) += sensitivities(record.u[j], model_.A, B[j], record.hold, record.delays[j]);
+            z.leftCols(n) += sensitivities(data_set.u[j], model_.A, B[j], data_set.hold, data_set.delays[j]);
         expect_sums(*sums, z, phi, model_.rounding);
-        const auto without_gram = delta_refined_equations(record, model_.A, B, false);
+        const auto without_gram = delta_refined_equations(data_set, model_.A, B, false);
         ASSERT_TRUE(without_gram);
         EXPECT_EQ(without_gram->z_z.size(), 0);
         EXPECT_EQ(without_gram->z_phi, sums->z_phi);
@@ -153,28 +153,29 @@ TEST_P(delta_regression, refined_sums_are_those_of_stored_signals) {
 TEST_P(delta_regression, auxiliary_sums_are_those_of_stored_signals) {
     const Index n = model_.A.size() - 1;
     const Vector E = power(Eigen::Vector2d(1, 2.5), static_cast<int>(n));
-    for_all([&](const RegressionRecord& record, const std::vector<Vector>& B) {
-        const auto sums = delta_auxiliary_equations(record, E, model_.A, B, 1);
-        ASSERT_EQ(sums.has_value(), record.hold == Hold::kZoh && B[0].size() <= n);
+    for_all([&](const RegressionData& data_set, const std::vector<Vector>& B) {
+        const auto sums = delta_auxiliary_equations(data_set, E, model_.A, B, 1);
+        ASSERT_EQ(sums.has_value(), data_set.hold == Hold::kZoh && B[0].size() <= n);
         if (!sums) return;
-        const Matrix phi = regressors(record, E);
+        const Matrix phi = regressors(data_set, E);
         Matrix z = phi.leftCols(phi.cols() - 1);
         z.leftCols(n).setZero();
         for (std::size_t j = 0; j < B.size(); ++j)
-            z.leftCols(n) -= filtered_simulation(record.u[j], E, model_.A, B[j], record.hold_y, record.delays[j]);
+            z.leftCols(n) -= filtered_simulation(data_set.u[j], E, model_.A, B[j], data_set.hold_y, data_set.delays[j]);
         expect_sums(*sums, z, phi, 1e-10);
     });
 }
 
 TEST_P(delta_regression, output_sums_are_those_of_stored_signals) {
-    for_all([&](const RegressionRecord& record, const std::vector<Vector>& B) {
+    for_all([&](const RegressionData& data_set, const std::vector<Vector>& B) {
         const std::vector<Vector> A(B.size(), model_.A);
-        const auto sums = delta_output_products(record, A, B);
+        const auto sums = delta_output_products(data_set, A, B);
         ASSERT_TRUE(sums);
-        Matrix signals = record.y;
+        Matrix signals = data_set.y;
         for (std::size_t j = 0; j < B.size(); ++j)
-            append(signals, chain_outputs({record.u[j], transfer_system(B[j], A[j]), record.hold, record.delays[j]},
-                                          {kTs, {nullptr, 0}}));
+            append(signals,
+                   chain_outputs({data_set.u[j], transfer_system(B[j], A[j]), data_set.hold, data_set.delays[j]},
+                                 {kTs, {nullptr, 0}}));
         EXPECT_LT(difference(*sums, signals, signals), 1e-12);
     });
 }
@@ -225,27 +226,27 @@ TEST(delta_regression_limits, a_signal_that_the_filter_stops_keeps_its_digits) {
 
 TEST(delta_regression_limits, other_kinds_are_left_to_the_general_way) {
     const Vector y = RandomStream(1).normal(1000), u = RandomStream(2).normal(1000);
-    const RegressionRecord record{view(y), {view(u)}, {0}, {0}, {kTs}};
+    const RegressionData data_set{view(y), {view(u)}, {0}, {0}, {kTs}};
     const std::vector<Vector> B{Vector::Ones(1)};
-    const auto made = [&](const RegressionRecord& of, const Vector& A) {
+    const auto made = [&](const RegressionData& of, const Vector& A) {
         const bool refined = delta_refined_equations(of, A, B, false).has_value();
         EXPECT_EQ(delta_svf_equations(of, A, 1).has_value(), refined);
         EXPECT_EQ(delta_auxiliary_equations(of, A, A, B, 1).has_value(), refined);
         EXPECT_EQ(delta_output_products(of, {A}, B).has_value(), refined);
         return refined;
     };
-    EXPECT_TRUE(made(record, Eigen::Vector3d(1, 4, 3)));
-    EXPECT_FALSE(made(record, power(Eigen::Vector2d(1, 3), 5))) << "five poles";
-    EXPECT_FALSE(made(record, Eigen::Vector3d(1, std::nan(""), 3))) << "not finite";
+    EXPECT_TRUE(made(data_set, Eigen::Vector3d(1, 4, 3)));
+    EXPECT_FALSE(made(data_set, power(Eigen::Vector2d(1, 3), 5))) << "five poles";
+    EXPECT_FALSE(made(data_set, Eigen::Vector3d(1, std::nan(""), 3))) << "not finite";
     const Vector t = Vector::LinSpaced(1000, 0, 9.99);
-    const RegressionRecord irregular{view(y), {view(u)}, {0}, {0}, {0, view(t)}};
+    const RegressionData irregular{view(y), {view(u)}, {0}, {0}, {0, view(t)}};
     EXPECT_FALSE(made(irregular, Eigen::Vector3d(1, 4, 3))) << "irregular";
-    const RegressionRecord brief{SampleView(y.data(), 15), {SampleView(u.data(), 15)}, {0}, {0}, {kTs}};
+    const RegressionData brief{SampleView(y.data(), 15), {SampleView(u.data(), 15)}, {0}, {0}, {kTs}};
     EXPECT_FALSE(made(brief, Eigen::Vector3d(1, 4, 3))) << "few samples";
     // Each pole twice, and three decades apart: only the sensitivities would suffer.
     const Vector far = multiply(Eigen::Vector3d(1, 4.4, 1.6), Eigen::Vector3d(1, 440, 16000));
-    EXPECT_FALSE(delta_refined_equations(record, far, B, false));
-    EXPECT_TRUE(delta_svf_equations(record, far, 1));
+    EXPECT_FALSE(delta_refined_equations(data_set, far, B, false));
+    EXPECT_TRUE(delta_svf_equations(data_set, far, 1));
 }
 
 }  // namespace test_delta_regression

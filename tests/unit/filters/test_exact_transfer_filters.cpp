@@ -57,7 +57,7 @@ TEST(exact_transfer_filters,
 TEST(exact_transfer_filters, sums_over_filtered_signals) {  // oracle: second route, lsim filters each signal
     const Vector u = RandomStream(1).normal(kSamples), y = RandomStream(2).normal(kSamples);
     const Vector E{{1.0, 3.0, 2.0}}, one{{1.0}}, p{{1.0, 0.0}}, pp{{1.0, 0.0, 0.0}};
-    const RegressionRecord record{view(y), {view(u)}, {1}, {0.2}, {kTs, {nullptr, 0}}, Hold::kZoh, Hold::kFoh};
+    const RegressionData data_set{view(y), {view(u)}, {1}, {0.2}, {kTs, {nullptr, 0}}, Hold::kZoh, Hold::kFoh};
     const auto filtered = [&](const Vector& num, const Vector& den, const Vector& x, double delay, Hold hold) {
         return lsim(TransferFunction(num, den, 0, delay), x, kTs, hold);
     };
@@ -72,22 +72,22 @@ TEST(exact_transfer_filters, sums_over_filtered_signals) {  // oracle: second ro
     const auto near = [](const Matrix& a, const Matrix& b) { return (a - b).norm() < 1e-8 * b.norm(); };
 
     const Matrix by_E = equations(E), phi_E = by_E.leftCols(4);
-    const NormalEquations svf = filters.svf(record, E, 2);
+    const NormalEquations svf = filters.svf(data_set, E, 2);
     EXPECT_TRUE(near(svf.z_phi, 4 * phi_E.transpose() * phi_E));
     EXPECT_TRUE(near(svf.z_y, 4 * phi_E.transpose() * by_E.col(4)));
 
     Matrix z = phi_E;
     const Vector x = filtered(kB, kA, u, 0.2, Hold::kZoh);
     z.leftCols(2) << -filtered(p, E, x, 0, Hold::kFoh), -filtered(one, E, x, 0, Hold::kFoh);
-    EXPECT_TRUE(near(filters.auxiliary(record, E, kA, {kB}, 1).z_phi, z.transpose() * phi_E));
+    EXPECT_TRUE(near(filters.auxiliary(data_set, E, kA, {kB}, 1).z_phi, z.transpose() * phi_E));
 
     const Matrix by_A = equations(kA), phi_A = by_A.leftCols(4);
     Matrix psi(kSamples, 4);  // the sensitivities of the simulated output
-    psi = filters.sensitivities(kB, kA, 0.2, u, record.sampling, Hold::kZoh).middleCols(1, 4);
-    const NormalEquations refined = filters.refined(record, kA, {kB}, true);
+    psi = filters.sensitivities(kB, kA, 0.2, u, data_set.sampling, Hold::kZoh).middleCols(1, 4);
+    const NormalEquations refined = filters.refined(data_set, kA, {kB}, true);
     EXPECT_TRUE(near(refined.z_phi, psi.transpose() * phi_A));
     EXPECT_TRUE(near(refined.z_z, psi.transpose() * psi));
-    EXPECT_NEAR(filters.output_error_squares(record, {kA}, {kB}) / (y - x).squaredNorm(), 1, 1e-10);
+    EXPECT_NEAR(filters.output_error_squares(data_set, {kA}, {kB}) / (y - x).squaredNorm(), 1, 1e-10);
 }
 
 }  // namespace test_exact_transfer_filters

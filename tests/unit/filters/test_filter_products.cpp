@@ -73,7 +73,7 @@ TEST_P(filter_products_of, outputs_equal_the_stored_ones_multiplied) {
               1e-12);
 }
 
-INSTANTIATE_TEST_SUITE_P(records, filter_products_of,
+INSTANTIATE_TEST_SUITE_P(data_sets, filter_products_of,
                          testing::Values(ProductsCase{1, 1, 0, Hold::kZoh}, ProductsCase{1, 2, 0, Hold::kFoh},
                                          ProductsCase{1, 17, 0, Hold::kZoh}, ProductsCase{2, 66, 0, Hold::kZoh},
                                          ProductsCase{2, 67, 0.05, Hold::kZoh}, ProductsCase{2, 1500, 0.37, Hold::kFoh},

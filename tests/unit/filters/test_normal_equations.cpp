@@ -32,17 +32,17 @@ class normal_equations : public testing::TestWithParam<Kind> {
   protected:
     Vector y_ = RandomStream(1).normal(kSamples);
     std::vector<Vector> u_;
-    RegressionRecord record_{SampleView(y_.data(), kSamples), {}, {}, {}, {kTs}};
+    RegressionData data_set_{SampleView(y_.data(), kSamples), {}, {}, {}, {kTs}};
 
     void SetUp() override {
         const Kind& kind = GetParam();
         for (std::size_t j = 0; j < kind.B.size(); ++j)
             u_.push_back(RandomStream(2 + static_cast<std::uint32_t>(j)).normal(kSamples));
         for (std::size_t j = 0; j < kind.B.size(); ++j) {
-            record_.u.emplace_back(u_[j].data(), kSamples);
-            record_.zeros.push_back(static_cast<int>(kind.B[j].size()) - 1);
+            data_set_.u.emplace_back(u_[j].data(), kSamples);
+            data_set_.zeros.push_back(static_cast<int>(kind.B[j].size()) - 1);
         }
-        record_.delays = kind.delays;
+        data_set_.delays = kind.delays;
     }
 
     Index order() const { return GetParam().A.size() - 1; }
@@ -59,7 +59,7 @@ class normal_equations : public testing::TestWithParam<Kind> {
         for (Index i = 1; i <= n; ++i)
             columns.push_back(-lsim(TransferFunction(gain * differentiator(n - i), den), y_, kTs, Hold::kFoh));
         for (std::size_t j = 0; j < u_.size(); ++j)
-            for (Index power = record_.zeros[j]; power >= 0; --power)
+            for (Index power = data_set_.zeros[j]; power >= 0; --power)
                 columns.push_back(driven(j, gain * differentiator(power), den));
         Matrix phi(kSamples, static_cast<Index>(columns.size()));
         for (Index c = 0; c < phi.cols(); ++c) phi.col(c) = columns[static_cast<std::size_t>(c)];
@@ -82,7 +82,7 @@ TEST_P(normal_equations, of_state_variable_filters) {
     Vector E = Vector::Ones(1);
     for (Index i = 0; i < order(); ++i) E = multiply(E, Vector{{1, 3}});
     const double gain = E[E.size() - 1];
-    const NormalEquations sums = svf_equations(record_, E, gain);
+    const NormalEquations sums = svf_equations(data_set_, E, gain);
     const Matrix phi = regressors(E, gain);
     const Vector left = highest(E, gain);
     expect_near(sums.z_phi, phi.transpose() * phi);
@@ -92,7 +92,7 @@ TEST_P(normal_equations, of_state_variable_filters) {
 
 TEST_P(normal_equations, of_the_refined_instruments) {
     const auto& [name, A, B, delays] = GetParam();
-    const NormalEquations sums = refined_equations(record_, A, B, true);
+    const NormalEquations sums = refined_equations(data_set_, A, B, true);
     const Matrix phi = regressors(A, 1);
     Matrix z = phi;
     const Vector squared = multiply(A, A);
@@ -110,7 +110,7 @@ TEST_P(normal_equations, of_output_errors) {
     const auto& [name, A, B, delays] = GetParam();
     Vector e = y_;
     for (std::size_t j = 0; j < B.size(); ++j) e -= driven(j, B[j], A);
-    const double squares = output_error_squares(record_, std::vector<Vector>(B.size(), A), B);
+    const double squares = output_error_squares(data_set_, std::vector<Vector>(B.size(), A), B);
     EXPECT_NEAR(squares, e.squaredNorm(), 1e-9 * e.squaredNorm());
 }
 

@@ -91,8 +91,8 @@ void expect_second_route(const IdData& data, const TransferStructure& structure,
 }
 
 /// `noise`: what the errors of one output are multiplied with for the next.
-IdData cut_record(const TransferStructure& structure, const Vector& theta, Index nu, std::uint32_t seed,
-                  double noise = 1) {
+IdData cut_data(const TransferStructure& structure, const Vector& theta, Index nu, std::uint32_t seed,
+                double noise = 1) {
     const auto models = structure.models(theta);
     const Index N = 500, ny = structure.outputs;
     Matrix u(N, nu), y(N, ny);
@@ -111,7 +111,7 @@ IdData cut_record(const TransferStructure& structure, const Vector& theta, Index
 TEST(assessment, one_channel_from_rest) {  // oracle: differences of compare_all()
     const auto structure = TransferStructure::single(2, 1);
     const Vector theta{{2.0, 5.0, 1.0, 4.0}};
-    const IdData data = cut_record(structure, theta, 1, 1);
+    const IdData data = cut_data(structure, theta, 1, 1);
     expect_second_route(data, structure, theta, {InitialState::kZero, false}, 0);
     expect_second_route(data, structure, theta, {InitialState::kZero, true}, 1);
 }
@@ -119,7 +119,7 @@ TEST(assessment, one_channel_from_rest) {  // oracle: differences of compare_all
 TEST(assessment, one_channel_cut_from_a_running_experiment) {  // oracle: differences of compare_all()
     const auto structure = TransferStructure::single(2, 0);
     const Vector theta{{2.0, 5.0, 4.0}};
-    const IdData data = cut_record(structure, theta, 1, 3).range(101, 500);
+    const IdData data = cut_data(structure, theta, 1, 3).range(101, 500);
     expect_second_route(data, structure, theta, {InitialState::kEstimate, true}, 3);
 }
 
@@ -127,15 +127,15 @@ TEST(assessment, several_experiments_and_channels) {  // oracle: differences of 
     const auto structure =
         TransferStructure::grid(2, 2, Denominators::kPerOutput, {2, 2, 1, 1}, {0, 1, 0, 0}, {0, 0.1, 0.07, 0});
     const Vector theta{{2.0, 5.0, 4.0, 1.0, 3.0, 0.8, 1.0, 2.0}};
-    const IdData whole = cut_record(structure, theta, 2, 5);
-    expect_second_route(IdData::merge({whole, cut_record(structure, theta, 2, 25)}), structure, theta,
+    const IdData whole = cut_data(structure, theta, 2, 5);
+    expect_second_route(IdData::merge({whole, cut_data(structure, theta, 2, 25)}), structure, theta,
                         {InitialState::kZero, false}, 0);
 }
 
 TEST(assessment, outputs_that_share_a_denominator) {  // oracle: differences of compare_all()
     const auto structure = TransferStructure::grid(2, 1, Denominators::kCommon, {2}, {0, 1}, {0, 0.1});
     const Vector theta{{2.0, 5.0, 4.0, 3.0, 1.0}};
-    const IdData data = cut_record(structure, theta, 1, 6, 20);
+    const IdData data = cut_data(structure, theta, 1, 6, 20);
     expect_second_route(data, structure, theta, {InitialState::kZero, false}, 0);
     expect_second_route(data, structure, theta, {InitialState::kEstimate, true}, 6);
 }
@@ -160,7 +160,7 @@ TEST(assessment, an_output_given_twice_in_two_units_teaches_nothing_new) {  // o
 TEST(assessment, irregular_sampling_and_as_many_zeros_as_poles) {  // oracle: differences of compare_all()
     const auto structure = TransferStructure::single(2, 2);
     const Vector theta{{2.0, 5.0, 0.5, 1.0, 4.0}};
-    const IdData regular = cut_record(structure, theta, 1, 7);
+    const IdData regular = cut_data(structure, theta, 1, 7);
     expect_second_route(regular, structure, theta, {InitialState::kZero, false}, 0);
     Vector t(500);
     const Vector jitter = RandomStream(2).uniform(500);
@@ -208,10 +208,10 @@ TEST(assessment, process_models_with_zero_and_integrator_sampled_irregularly) { 
             return lsim(ProcessModel(process.structure, values).transfer_function(), u, t);
         };
         const Vector x = output(parameters);
-        const auto record = [&](std::uint32_t seed) {
+        const auto simulated_data = [&](std::uint32_t seed) {
             return IdData(Matrix(x + 0.05 * ar1(500, 0.8, seed)), Matrix(u), t);
         };
-        const IdData data = IdData::merge({record(1), record(2)});
+        const IdData data = IdData::merge({simulated_data(1), simulated_data(2)});
         const auto fitted = procsrivc(data, process.structure, options);
         const Assessment actual = assess(data, fitted);
         const Matrix one = differences(output, fitted.theta);

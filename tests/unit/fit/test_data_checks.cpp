@@ -18,7 +18,7 @@ IdData with_signals(const IdData& data, const Matrix& y, const Matrix& u) {
 }
 
 TEST(data_checks, of_transfer_functions) {  // oracle: the promises of the header
-    const IdData data = course_record(0.1, 1);
+    const IdData data = course_system_data(0.1, 1);
     const Matrix &y = data.experiments[0].y, &u = data.experiments[0].u;
     const auto refusal = [](const IdData& given, const TransferStructure& structure) {
         return thrown_message([&] { check_transfer_data("method", given, structure); });
@@ -63,8 +63,8 @@ TEST(data_checks, a_constant_input_teaches_through_a_transient_only) {  // oracl
 }
 
 TEST(data_checks, where_delays_are_looked_for) {  // oracle: the definition
-    const IdData data = course_record(0, 1), both = IdData::merge({data, data.range(1, 401)});
-    EXPECT_DOUBLE_EQ(shortest_record(both), 4);
+    const IdData data = course_system_data(0, 1), both = IdData::merge({data, data.range(1, 401)});
+    EXPECT_DOUBLE_EQ(shortest_experiment(both), 4);
     FitOptions options;
     options.least_delay = 0.1;
     EXPECT_DOUBLE_EQ(delay_range(both, options).largest, 1);

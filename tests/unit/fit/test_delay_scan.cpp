@@ -16,7 +16,7 @@ using namespace dynlab::test;
 
 // Oracle: the joint search at every fixed delay. Far from the true delay several minima lie close together.
 TEST(delay_scan, loss_over_the_delay_is_that_of_fixed_delays) {
-    const IdData data = delayed_record();
+    const IdData data = delayed_data();
     TransferStructure structure = TransferStructure::single(2, 0);
     structure.free_delays = true;
     FitOptions options;
@@ -61,7 +61,7 @@ TEST(delay_scan, delays_stay_within_the_part_of_a_long_record_that_is_scanned) {
 }
 
 /// A pole and a delay (s) behind a binary input that rests up to a sample, at irregular instants.
-IdData irregular_record(double delay, Index rest) {
+IdData irregular_data(double delay, Index rest) {
     const Index N = 3100;
     RandomStream random(9);
     Vector t = Vector::Zero(N), u = prbs(12, 5).head(N);
@@ -77,7 +77,7 @@ TEST(delay_scan, the_beginning_of_an_irregular_record_is_scanned_where_it_repres
     TransferStructure structure = TransferStructure::single(1, 0);
     structure.free_delays = true;
     for (const auto& [delay, rest] : {std::pair{1.3, 0}, std::pair{27.0, 0}, std::pair{1.3, 1600}}) {
-        const IdData data = irregular_record(delay, rest);
+        const IdData data = irregular_data(delay, rest);
         const DelayScan scan = scan_delays(data, structure, {});
         EXPECT_NEAR(scan.starts.front()[2], delay, 0.1) << rest;
         EXPECT_NEAR(search_transfer("test", data, structure, {}).theta[2], delay, 0.02) << rest;

@@ -106,7 +106,7 @@ TEST(diagnosis, of_the_search) {  // oracle: the sentences that scripts promise
     EXPECT_EQ(message_text(simulation_text(fit)), "fit 93.21 % (simulation)");
     fit.termination = Termination::kIterationLimit;
     EXPECT_FALSE(has_settled(fit));
-    describe_search(fit, course_record(0, 1), options, {});
+    describe_search(fit, course_system_data(0, 1), options, {});
     EXPECT_THAT(texts_of(fit.warnings), ElementsAre("The search did not converge within `max_iterations` = 7 "
                                                     "iterations; the result is the best point so far."));
     fit.termination = Termination::kCanceled;
@@ -127,7 +127,7 @@ TEST(diagnosis, of_the_search) {  // oracle: the sentences that scripts promise
 TEST(diagnosis, a_delay_that_a_direct_term_hides) {  // oracle: the warning's own condition
     Fit fit = fit_of(1, 1, values({1, 2, 1, 0.3}));
     fit.structure.free_delays = true;
-    IdData data = course_record(0, 1);
+    IdData data = course_system_data(0, 1);
     describe_search(fit, data, {}, {0, 1});
     EXPECT_THAT(texts_of(fit.warnings), testing::Contains(HasSubstr("Fix the delay with `delay`")));
     fit.warnings.clear();

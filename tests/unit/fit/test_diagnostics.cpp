@@ -29,7 +29,7 @@ constexpr double kTs = 0.05;
 const TransferStructure kStructure = TransferStructure::single(2, 0);
 
 /// 3/(s^2 + 4 s + 3) with errors that are white, or that follow each other where they are `colored`.
-IdData record_with(double constant, bool colored = false) {
+IdData data_with(double constant, bool colored = false) {
     const Vector u = prbs(8, 6);
     Vector e = RandomStream(4).normal(u.size());
     for (Index k = 1; k < e.size() && colored; ++k) e[k] += 0.95 * e[k - 1];
@@ -38,14 +38,14 @@ IdData record_with(double constant, bool colored = false) {
 }
 
 /// The same with a part of the input that the output follows at once.
-IdData record_with_feedthrough() {
-    IdData data = record_with(0);
+IdData data_with_feedthrough() {
+    IdData data = data_with(0);
     data.experiments[0].y += data.experiments[0].u;
     return data;
 }
 
 TEST(diagnostics, feedthrough_is_missed_by_srivc_and_coe) {
-    const IdData data = record_with_feedthrough();
+    const IdData data = data_with_feedthrough();
     for (const auto& method : {srivc, coe}) {
         const Diagnostics found = diagnose(method(data, kStructure, {}, {}), data, {});
         ASSERT_TRUE(found.missed);
@@ -61,7 +61,7 @@ TEST(diagnostics, feedthrough_is_missed_by_srivc_and_coe) {
 }
 
 TEST(diagnostics, nothing_is_missed_of_a_record_with_an_offset) {
-    const IdData data = record_with(2);
+    const IdData data = data_with(2);
     const Diagnostics found = diagnose(srivc(data, kStructure), data, {});
     EXPECT_FALSE(found.missed);
     EXPECT_TRUE(found.warnings().empty());
@@ -70,9 +70,9 @@ TEST(diagnostics, nothing_is_missed_of_a_record_with_an_offset) {
 }
 
 TEST(diagnostics, assessment_sees_the_color_that_errors_were_given) {
-    const IdData data = record_with(0, true);
+    const IdData data = data_with(0, true);
     const Fit fit = srivc(data, kStructure);
-    const Diagnostics plain = diagnose(srivc(record_with(0), kStructure), record_with(0), {}),
+    const Diagnostics plain = diagnose(srivc(data_with(0), kStructure), data_with(0), {}),
                       found = diagnose(fit, data, {});
     ASSERT_TRUE(plain.assessment);
     EXPECT_TRUE(plain.assessment->white);
@@ -83,7 +83,7 @@ TEST(diagnostics, assessment_sees_the_color_that_errors_were_given) {
 
 // Oracle: a model of the noise takes the place of the assessment.
 TEST(diagnostics, rivc_is_not_assessed_and_misses_the_feedthrough) {
-    const IdData data = record_with_feedthrough();
+    const IdData data = data_with_feedthrough();
     const Diagnostics found = diagnose(rivc(data, kStructure, {0, 1}), data, {});
     EXPECT_FALSE(found.assessment);
     ASSERT_TRUE(found.missed);
@@ -105,7 +105,7 @@ TEST(diagnostics, difference_equations_and_process_models_are_assessed) {
     with_noise.nd = 1;
     EXPECT_TRUE(diagnose(bj(data, with_noise), data, {}).assessment);
     EXPECT_TRUE(diagnose(armax(data, PolynomialOrders::arx(2, {1}, {1})), data, {}).assessment);
-    const IdData other = record_with(2);
+    const IdData other = data_with(2);
     EXPECT_TRUE(diagnose(procsrivc(other, ProcessStructure::parse("P2")), other, {}).assessment);
 }
 
@@ -133,7 +133,7 @@ TEST(diagnostics, integration_is_a_fit_of_the_integrated_input) {
 
 // Oracle: diagnose() at once; what the deferred ones hold of the data is given back when all is computed.
 TEST(diagnostics, deferred_ones_are_the_same_and_let_the_data_go) {
-    const auto data = std::make_shared<const IdData>(record_with_feedthrough());
+    const auto data = std::make_shared<const IdData>(data_with_feedthrough());
     const Fit fit = srivc(*data, kStructure);
     const Diagnostics now = diagnose(fit, *data, {});
     const DeferredDiagnostics deferred(fit, data, {}), copy = deferred;

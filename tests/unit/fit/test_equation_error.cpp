@@ -15,13 +15,13 @@ using testing::HasSubstr;
 
 const PolynomialOrders kOrders = PolynomialOrders::arx(1, {1}, {1});
 
-IdData record(Index N, std::uint32_t seed) {
+IdData simulated_data(Index N, std::uint32_t seed) {
     const Vector u = random_levels(N, 3, seed + 100), e = 0.2 * RandomStream(seed).normal(N);
     return IdData(Matrix(model_output(PolynomialModel(kOrders, Vector{{-0.7, 0.5}}, 1), u, e)), Matrix(u), 1);
 }
 
 TEST(equation_error, measures_of_a_fit) {  // oracle: both errors sample by sample
-    const IdData data = IdData::merge({record(300, 1), record(200, 2)});
+    const IdData data = IdData::merge({simulated_data(300, 1), simulated_data(200, 2)});
     const double a = -0.6, b = 0.4;
     double predicted = 0, simulated = 0, spread = 0;
     for (const Experiment& x : data.experiments) {
@@ -48,13 +48,13 @@ TEST(equation_error, measures_of_a_fit) {  // oracle: both errors sample by samp
 }
 
 TEST(equation_error, what_is_refused) {  // oracle: the promises of the header
-    const IdData data = record(50, 1);
+    const IdData data = simulated_data(50, 1);
     PolynomialOrders noisy = kOrders;
     noisy.nc = 1;
     EXPECT_THAT(thrown_message([&] { check_equation_error("arx", data, noisy); }), HasSubstr("nc, nd and nf"));
     EXPECT_THAT(thrown_message([&] { check_equation_error("arx", data.range(1, 3), kOrders); }),
                 HasSubstr("more equations than its 2 parameters, but the data provide 2"));
-    IdData poor = record(200, 1);
+    IdData poor = simulated_data(200, 1);
     poor.experiments[0].u.setOnes();  // shows only the sum of two coefficients of B
     EXPECT_THAT(thrown_message([&] { solve_rich_arx("arx", poor, PolynomialOrders::arx(1, {2}, {0})); }),
                 HasSubstr("arx"));

@@ -10,7 +10,7 @@
 namespace dynlab::test {
 namespace test_finished_fit {
 
-IdData record() {
+IdData simulated_data() {
     const Vector u = prbs(6, 5);
     return IdData(Matrix(lsim(TransferFunction(Vector{{2.0}}, Vector{{1.0, 3.0}}), u, 0.1)), Matrix(u), 0.1);
 }
@@ -27,7 +27,7 @@ Fit fit_of_first_order() {
 }
 
 TEST(finished_fit, is_the_estimate_of_the_data_where_no_integrator_is_asked_for) {
-    const IdData data = record();
+    const IdData data = simulated_data();
     FitOptions options = FitOptions().from_rest();
     int calls = 0;
     const Fit fit = finished_fit(data, options, [&](const IdData& seen, const FitOptions& expected) {
@@ -41,7 +41,7 @@ TEST(finished_fit, is_the_estimate_of_the_data_where_no_integrator_is_asked_for)
 }
 
 TEST(finished_fit, with_an_integrator_the_method_sees_integrated_inputs_and_the_model_gets_a_pole_at_zero) {
-    const IdData data = record();
+    const IdData data = simulated_data();
     FitOptions options = FitOptions().from_rest();
     options.integration = true;
     const Fit fit = finished_fit(data, options, [&](const IdData& seen, const FitOptions& expected) {

@@ -12,8 +12,8 @@ using namespace dynlab::test;
 /// The mean square that a start leaves, simulated with lsim from rest.
 double loss_at(const ProcessStructure& structure, const Vector& theta, const IdData& data) {
     const TransferFunction G = ProcessModel(structure, theta).transfer_function();
-    const Experiment& record = data.experiments[0];
-    return (record.y.col(0) - lsim(G, record.u.col(0), data.Ts, data.hold)).squaredNorm() /
+    const Experiment& data_set = data.experiments[0];
+    return (data_set.y.col(0) - lsim(G, data_set.u.col(0), data.Ts, data.hold)).squaredNorm() /
            static_cast<double>(data.sample_count());
 }
 

@@ -53,7 +53,7 @@ TEST(search_starts, come_from_poorer_structures_that_fit_better_than_asked) {
         return NestedSolution{Vector::Ones(structure.parameter_count()), starts.empty() ? own : std::min(own, 0.5),
                               structure};
     };
-    const IdData data = course_record(0.2, 1);
+    const IdData data = course_system_data(0.2, 1);
     NestedSearch search(data, solve);
     // Two poles, started from one, have 0.5: two starts with a pole more.
     EXPECT_EQ(search.better_starts(TransferStructure::single(3, 0), 2).size(), 2u);

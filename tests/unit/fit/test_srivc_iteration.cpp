@@ -17,7 +17,7 @@ using namespace dynlab::test;
 constexpr double kTs = 0.05;
 
 /// Samples of y = (s + 3)/(s^2 + 2 s + 5) u(t - 0.12) for held random steps, with white noise of this size.
-IdData record(Index N, double noise) {
+IdData simulated_data(Index N, double noise) {
     const Vector numbers = RandomStream(3).normal(N);
     Vector u(N);
     for (Index k = 0; k < N; ++k) u[k] = numbers[k / 8] > 0 ? 1 : -1;
@@ -30,7 +30,7 @@ const TransferStructure kStructure = TransferStructure::single(2, 1, 0.12);
 const Vector kTruth{{2, 5, 1, 3}};
 
 TEST(srivc_iteration, an_exact_record_gives_its_system) {  // oracle: the system that made the data
-    const IdData data = record(600, 0);
+    const IdData data = simulated_data(600, 0);
     FitOptions options;
     options.hold_y = Hold::kFoh;
     const Vector start = best_cutoff_start(data, kStructure, options);
@@ -43,7 +43,7 @@ TEST(srivc_iteration, an_exact_record_gives_its_system) {  // oracle: the system
 // Oracle: with instruments that are the sensitivities of the simulated output, the end is a stationary point of the
 // simulation error; its gradient is taken by central differences of the loss of an independent simulation.
 TEST(srivc_iteration, ends_where_the_simulation_error_is_stationary) {
-    const IdData data = record(2000, 0.05);
+    const IdData data = simulated_data(2000, 0.05);
     FitOptions options;
     options.tolerance = 1e-10;
     options.max_iterations = 200;

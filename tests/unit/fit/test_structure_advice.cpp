@@ -96,9 +96,9 @@ int missed_in(const Planted& planted, StructureAdviceCode code) {
     return count;
 }
 
-int alarms(const Planted& planted, std::uint32_t records, std::string& sentences) {
+int alarms(const Planted& planted, std::uint32_t data_sets, std::string& sentences) {
     int count = 0;
-    for (std::uint32_t seed = 0; seed < records; ++seed) {
+    for (std::uint32_t seed = 0; seed < data_sets; ++seed) {
         const auto missed = missed_of(random_case(seed, planted));
         if (!missed) continue;
         ++count;

@@ -23,7 +23,7 @@ using namespace dynlab;
 using namespace dynlab::test;
 
 /// 3 exp(-0.4 s)/(s^2 + 2s + 4) with a little noise, N samples about `step` (s) apart.
-IdData irregular_record(Index N, double step, std::uint32_t seed) {
+IdData irregular_data(Index N, double step, std::uint32_t seed) {
     const Vector jitter = RandomStream(seed).uniform(N), noise = RandomStream(seed + 1).normal(N);
     const Vector levels = RandomStream(seed + 2).normal(N);
     Vector t(N), u(N);
@@ -37,7 +37,7 @@ IdData irregular_record(Index N, double step, std::uint32_t seed) {
 
 // A fast short experiment and a slow long one, in either order.
 struct Orders {
-    IdData fast = irregular_record(300, 0.02, 1), slow = irregular_record(400, 0.2, 11);
+    IdData fast = irregular_data(300, 0.02, 1), slow = irregular_data(400, 0.2, 11);
     IdData fast_first = IdData::merge({fast, slow}), slow_first = IdData::merge({slow, fast});
 };
 
@@ -60,13 +60,13 @@ TEST(transfer_search, the_order_of_unequal_experiments_does_not_matter) {  // or
 }
 
 TEST(transfer_search, the_likely_delay_leaves_the_shortest_record_room) {  // oracle: the promised quarter
-    const IdData brief = irregular_record(80, 0.005, 21), slow = irregular_record(400, 0.2, 11);
+    const IdData brief = irregular_data(80, 0.005, 21), slow = irregular_data(400, 0.2, 11);
     for (const IdData& data : {IdData::merge({brief, slow}), IdData::merge({slow, brief})})
-        EXPECT_LE(likely_largest_delay(data), shortest_record(data) / 4);
+        EXPECT_LE(likely_largest_delay(data), shortest_experiment(data) / 4);
 }
 
 /// A slow stable system in little data: the smallest simulation error is an unstable model's.
-IdData nearly_integrating_record(std::uint32_t seed) {
+IdData nearly_integrating_data(std::uint32_t seed) {
     const Index N = 150;
     Vector u = Vector::Zero(N);
     u.segment(10, 40).setOnes();
@@ -79,7 +79,7 @@ TEST(transfer_search, an_unstable_model_is_given_only_where_it_is_clearly_better
     int unstable = 0;
     const TransferStructure structure = TransferStructure::single(1, 0);
     for (std::uint32_t seed = 1; seed <= 20; ++seed) {
-        const IdData data = nearly_integrating_record(seed);
+        const IdData data = nearly_integrating_data(seed);
         FitOptions any, stable;
         any.stable = false;
         stable.stable = true;
@@ -109,7 +109,7 @@ TEST(transfer_search, a_system_that_is_unstable_is_found_unstable) {  // oracle:
 // Oracle: with one parameter known, what is left is a search with a parameter less; at the free optimum it costs
 // nothing.
 TEST(transfer_search, fixed_parameters_keep_their_values) {
-    const IdData data = course_record(0.1, 5);
+    const IdData data = course_system_data(0.1, 5);
     const TransferStructure structure = TransferStructure::single(2, 0);
     const Fit free = search_transfer("test", data, structure, {});
     FitOptions options;
@@ -197,7 +197,7 @@ TEST(transfer_search, the_covariance_under_given_weights_is_that_of_each_output_
 
 // Oracle: the optimum that the search without a start finds; a start elsewhere leads to the valley beside it.
 TEST(transfer_search, begins_at_a_start_or_a_delay_that_is_given) {
-    const IdData data = delayed_record();
+    const IdData data = delayed_data();
     TransferStructure structure = TransferStructure::single(2, 0);
     structure.free_delays = true;
     const Fit unasked = search_transfer("test", data, structure, {});

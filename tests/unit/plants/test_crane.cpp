@@ -254,10 +254,10 @@ TEST(crane, experiments_repeat_for_equal_seeds_only) {  // oracle: definition
 
 TEST(crane, sensors_quantize) {  // oracle: definition
     const CraneExperiments plan;
-    for (const CraneRecord& record : simulate_crane({}, plan, 2)) {
-        for (double x : record.x)
+    for (const CraneData& data_set : simulate_crane({}, plan, 2)) {
+        for (double x : data_set.x)
             EXPECT_NEAR(x / plan.position_resolution, std::round(x / plan.position_resolution), 1e-9);
-        for (double a : record.theta)
+        for (double a : data_set.theta)
             EXPECT_NEAR(a / plan.angle_resolution, std::round(a / plan.angle_resolution), 1e-9);
     }
 }
@@ -265,10 +265,10 @@ TEST(crane, sensors_quantize) {  // oracle: definition
 TEST(crane, only_the_limits_are_beyond_what_a_linear_model_can_say) {  // oracle: definition of the experiments
     const CraneParameters p;
     for (std::uint32_t seed = 1; seed <= 8; ++seed) {
-        for (const CraneRecord& record : simulate_crane(p, {}, seed)) {
-            const bool limits = record.name == "limits";
-            EXPECT_EQ(record.x.cwiseAbs().maxCoeff() > p.rail, limits) << record.name << " of seed " << seed;
-            EXPECT_EQ(record.u.cwiseAbs().maxCoeff() > p.voltage_limit, limits) << record.name;
+        for (const CraneData& data_set : simulate_crane(p, {}, seed)) {
+            const bool limits = data_set.name == "limits";
+            EXPECT_EQ(data_set.x.cwiseAbs().maxCoeff() > p.rail, limits) << data_set.name << " of seed " << seed;
+            EXPECT_EQ(data_set.u.cwiseAbs().maxCoeff() > p.voltage_limit, limits) << data_set.name;
         }
     }
 }

@@ -18,12 +18,12 @@ CraneExperiments without_noise() {
 }
 
 TEST(crane_control, a_controller_that_replays_a_voltage_repeats_the_experiment) {
-    const CraneRecord steps = simulate_crane({}, without_noise(), 3)[2];
+    const CraneData steps = simulate_crane({}, without_noise(), 3)[2];
     const auto replay = [&](double t, double, double) {
         return steps.u[static_cast<Index>(std::llround(t / without_noise().Ts))];
     };
     const CraneRun run{.duration = steps.t[steps.t.size() - 1], .position = steps.x[0]};
-    const CraneRecord again = control_crane({}, without_noise(), run, replay, 3);
+    const CraneData again = control_crane({}, without_noise(), run, replay, 3);
     EXPECT_EQ((again.x - steps.x).norm(), 0);
     EXPECT_EQ((again.theta - steps.theta).norm(), 0);
 }
@@ -31,16 +31,16 @@ TEST(crane_control, a_controller_that_replays_a_voltage_repeats_the_experiment) 
 TEST(crane_control, proportional_control_ends_within_what_dry_friction_holds) {
     const double gain = 20, goal = 0.3;
     const auto proportional = [&](double, double x, double) { return gain * (goal - x); };
-    const CraneRecord record = control_crane({}, {}, {.duration = 20}, proportional, 1);
+    const CraneData data_set = control_crane({}, {}, {.duration = 20}, proportional, 1);
     const double held = crane_truth({}).starting_voltage / gain;
-    EXPECT_NEAR(record.x[record.x.size() - 1], goal, held + 1e-3);
+    EXPECT_NEAR(data_set.x[data_set.x.size() - 1], goal, held + 1e-3);
 }
 
 TEST(crane_control, sensors_round_and_equal_seeds_give_equal_records) {
     const auto off = [](double, double, double) { return 0.; };
-    const CraneRecord first = control_crane({}, {}, {.duration = 2, .angle = 0.2}, off, 5);
-    const CraneRecord same = control_crane({}, {}, {.duration = 2, .angle = 0.2}, off, 5);
-    const CraneRecord other = control_crane({}, {}, {.duration = 2, .angle = 0.2}, off, 6);
+    const CraneData first = control_crane({}, {}, {.duration = 2, .angle = 0.2}, off, 5);
+    const CraneData same = control_crane({}, {}, {.duration = 2, .angle = 0.2}, off, 5);
+    const CraneData other = control_crane({}, {}, {.duration = 2, .angle = 0.2}, off, 6);
     EXPECT_EQ((first.theta - same.theta).norm(), 0);
     EXPECT_GT((first.theta - other.theta).norm(), 0);
     const Vector steps = first.theta / CraneExperiments{}.angle_resolution;

@@ -27,10 +27,10 @@ TEST(drive, open_loop_is_the_plant_s_response) {  // oracle: simulation of the t
     const DriveParameters p = exact();
     RandomStream random(1);
     const Vector u = random.normal(500);
-    const DriveRecord record = simulate_open_drive(p, u, random);
-    EXPECT_LT((record.y - lsim(drive_plant(p), u, p.Ts)).cwiseAbs().maxCoeff(), 1e-9);
-    EXPECT_EQ(record.u, u);
-    EXPECT_EQ(record.r, Vector::Zero(500));
+    const DriveData data_set = simulate_open_drive(p, u, random);
+    EXPECT_LT((data_set.y - lsim(drive_plant(p), u, p.Ts)).cwiseAbs().maxCoeff(), 1e-9);
+    EXPECT_EQ(data_set.u, u);
+    EXPECT_EQ(data_set.r, Vector::Zero(500));
 }
 
 TEST(drive, settles_where_torques_and_voltages_balance) {  // oracle: statics
@@ -48,22 +48,23 @@ TEST(drive, settles_where_torques_and_voltages_balance) {  // oracle: statics
 TEST(drive, voltage_follows_from_the_errors_before) {
     const DriveParameters p;
     RandomStream random(4);
-    const DriveRecord record = simulate_drive(p, 8 * random.normal(300), random);
+    const DriveData data_set = simulate_drive(p, 8 * random.normal(300), random);
     const TransferFunction C = drive_controller(p);
-    EXPECT_EQ(record.u[0], 0);
+    EXPECT_EQ(data_set.u[0], 0);
     double sum = 0;
     for (Index k = 1; k < 300; ++k) {
-        const double error = record.r[k - 1] - record.y[k - 1];
+        const double error = data_set.r[k - 1] - data_set.y[k - 1];
         sum += error;
-        EXPECT_NEAR(record.u[k], p.gain * error + p.integral_gain * p.Ts * sum, 1e-12) << k;
+        EXPECT_NEAR(data_set.u[k], p.gain * error + p.integral_gain * p.Ts * sum, 1e-12) << k;
     }
-    EXPECT_LT((record.u - lsim(C, record.r - record.y, p.Ts)).cwiseAbs().maxCoeff(), 1e-9) << "its transfer function";
+    EXPECT_LT((data_set.u - lsim(C, data_set.r - data_set.y, p.Ts)).cwiseAbs().maxCoeff(), 1e-9)
+        << "its transfer function";
 }
 
 TEST(drive, brings_the_speed_to_the_reference) {  // oracle: integral action
     RandomStream random(1);
-    const DriveRecord record = simulate_drive(exact(), Vector::Constant(1000, 5.), random);
-    EXPECT_NEAR(record.y[999], 5, 1e-4);
+    const DriveData data_set = simulate_drive(exact(), Vector::Constant(1000, 5.), random);
+    EXPECT_NEAR(data_set.y[999], 5, 1e-4);
     for (std::uint32_t number = 1; number <= 50; ++number) {
         DriveParameters p = drive_variant(number);
         p.load_std = p.noise_std = p.resolution = 0;

@@ -87,19 +87,19 @@ TEST(heat_transfer, sensor_adds_the_stated_noise_and_rounds) {  // oracle: defin
 TEST(heat_transfer, experiments_stand_about_their_operating_points) {  // oracle: definition, statics
     const HeatTransferParameters p;
     const HeatTransferExperiments plan;
-    const HeatTransferRecords one = simulate_heat_transfer(p, plan, 4), again = simulate_heat_transfer(p, plan, 4),
-                              other = simulate_heat_transfer(p, plan, 5);
+    const HeatTransferData one = simulate_heat_transfer(p, plan, 4), again = simulate_heat_transfer(p, plan, 4),
+                           other = simulate_heat_transfer(p, plan, 5);
     EXPECT_EQ(one.estimation.y, again.estimation.y);
     EXPECT_EQ(one.high.y, again.high.y);
     EXPECT_NE(one.estimation.y, other.estimation.y);
     EXPECT_NE(one.estimation.u, one.validation.u);
-    for (const auto& [record, point] : {std::pair(&one.estimation, plan.low), std::pair(&one.validation, plan.low),
-                                        std::pair(&one.high, plan.high)}) {
-        EXPECT_EQ(record->t.size(), record->y.size());
-        EXPECT_EQ(record->u[0], point);
-        EXPECT_EQ(record->u.maxCoeff(), point + plan.amplitude);
-        EXPECT_EQ(record->u.minCoeff(), point - plan.amplitude);
-        EXPECT_NEAR(record->y.head(50).mean(), heat_transfer_truth(p, point).temperature, p.drift + 0.1);
+    for (const auto& [data_set, point] : {std::pair(&one.estimation, plan.low), std::pair(&one.validation, plan.low),
+                                          std::pair(&one.high, plan.high)}) {
+        EXPECT_EQ(data_set->t.size(), data_set->y.size());
+        EXPECT_EQ(data_set->u[0], point);
+        EXPECT_EQ(data_set->u.maxCoeff(), point + plan.amplitude);
+        EXPECT_EQ(data_set->u.minCoeff(), point - plan.amplitude);
+        EXPECT_NEAR(data_set->y.head(50).mean(), heat_transfer_truth(p, point).temperature, p.drift + 0.1);
     }
 }
 

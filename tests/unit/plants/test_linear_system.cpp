@@ -26,21 +26,21 @@ TEST(linear_system, measures_its_output_in_white_noise) {  // oracle: definition
     const LinearSystemParameters p;
     const TransferFunction G = linear_system_truth(p);
     for (std::uint32_t seed : {1u, 2u, 3u}) {
-        const LinearSystemRecords records = simulate_linear_system(p, seed);
-        for (const PlantData* record : {&records.estimation, &records.validation}) {
-            const Vector e = record->y - lsim(G, record->u, p.Ts);
+        const LinearSystemData data_sets = simulate_linear_system(p, seed);
+        for (const PlantData* data_set : {&data_sets.estimation, &data_sets.validation}) {
+            const Vector e = data_set->y - lsim(G, data_set->u, p.Ts);
             const auto N = static_cast<double>(e.size());
             EXPECT_NEAR(std::sqrt(e.squaredNorm() / N), p.noise_std, 4 * p.noise_std / std::sqrt(2 * N));
             EXPECT_LT(std::abs(e.head(e.size() - 1).dot(e.tail(e.size() - 1))) / e.squaredNorm(), 4 / std::sqrt(N));
-            EXPECT_EQ(record->u.cwiseAbs(), Vector::Constant(e.size(), p.amplitude));
-            EXPECT_DOUBLE_EQ(record->t[1] - record->t[0], p.Ts);
+            EXPECT_EQ(data_set->u.cwiseAbs(), Vector::Constant(e.size(), p.amplitude));
+            EXPECT_DOUBLE_EQ(data_set->t[1] - data_set->t[0], p.Ts);
         }
     }
 }
 
 TEST(linear_system, repeats_for_equal_seeds_only) {  // oracle: definition
-    const LinearSystemRecords one = simulate_linear_system({}, 5), again = simulate_linear_system({}, 5),
-                              other = simulate_linear_system({}, 6);
+    const LinearSystemData one = simulate_linear_system({}, 5), again = simulate_linear_system({}, 5),
+                           other = simulate_linear_system({}, 6);
     EXPECT_EQ(one.estimation.y, again.estimation.y);
     EXPECT_EQ(one.validation.y, again.validation.y);
     EXPECT_NE(one.estimation.y, other.estimation.y);

@@ -46,10 +46,10 @@ std::vector<std::string> names_of(const PlantValues& values) {
 }
 
 /// The experiments of the data set, or the data set itself.
-std::vector<PlantValues> experiments_of(const Plant& plant, const PlantValues& record) {
-    if (plant.experiments.empty()) return {record};
+std::vector<PlantValues> experiments_of(const Plant& plant, const PlantValues& simulated_data) {
+    if (plant.experiments.empty()) return {simulated_data};
     std::vector<PlantValues> all;
-    for (const PlantValue& experiment : record) all.push_back(std::get<PlantValues>(experiment.value));
+    for (const PlantValue& experiment : simulated_data) all.push_back(std::get<PlantValues>(experiment.value));
     return all;
 }
 
@@ -79,11 +79,11 @@ TEST_P(plant_catalog, records_have_the_experiments_the_signals_and_the_documente
     const Plant& plant = this->plant();
     std::vector<std::string> signals;
     for (const PlantSignal& signal : plant.signals) signals.push_back(signal.name);
-    const PlantValues record = plant.record({});
+    const PlantValues simulated_data = plant.simulated_data({});
     if (!plant.experiments.empty()) {
-        EXPECT_THAT(names_of(record), ElementsAreArray(plant.experiments));
+        EXPECT_THAT(names_of(simulated_data), ElementsAreArray(plant.experiments));
     }
-    for (const PlantValues& experiment : experiments_of(plant, record)) {
+    for (const PlantValues& experiment : experiments_of(plant, simulated_data)) {
         EXPECT_THAT(names_of(experiment), ElementsAreArray(signals));
         const Vector& t = signal_of(experiment, "t");
         for (Index k = 1; k < t.size(); ++k) ASSERT_NEAR(t[k] - t[k - 1], plant.Ts, 1e-9 * t[k]) << k;
@@ -94,15 +94,15 @@ TEST_P(plant_catalog, records_have_the_experiments_the_signals_and_the_documente
 // oracle: what a choice means
 TEST_P(plant_catalog, another_seed_changes_the_record_and_another_variant_the_truth) {
     const Plant& plant = this->plant();
-    const auto record = [&plant](const PlantChoice& choice) {
-        return signal_of(experiments_of(plant, plant.record(choice)).front(), plant.signals.back().name);
+    const auto simulated_data = [&plant](const PlantChoice& choice) {
+        return signal_of(experiments_of(plant, plant.simulated_data(choice)).front(), plant.signals.back().name);
     };
     const PlantChoice stored;
     EXPECT_EQ(stored.specimen, 0u);
     EXPECT_EQ(stored.seed, 1u);
-    EXPECT_EQ(record(stored), record({.specimen = 0, .seed = 1}));
-    EXPECT_NE(record(stored), record({.specimen = 0, .seed = 2}));
-    EXPECT_NE(record(stored), record({.specimen = 3, .seed = 1}));
+    EXPECT_EQ(simulated_data(stored), simulated_data({.specimen = 0, .seed = 1}));
+    EXPECT_NE(simulated_data(stored), simulated_data({.specimen = 0, .seed = 2}));
+    EXPECT_NE(simulated_data(stored), simulated_data({.specimen = 3, .seed = 1}));
     EXPECT_EQ(names_of(plant.truth(0)), names_of(plant.truth(3)));
     const auto numbers = [](const PlantValues& values) {
         std::vector<double> all;

@@ -12,12 +12,12 @@ TEST(suspension, obeys_newtons_law) {  // oracle: residual of the differential e
     p.noise_std = p.resolution = 0;
     p.Ts = 1e-4;
     p.step_time = 0.5;
-    const PlantData record = simulate_suspension(p, 1);
+    const PlantData data_set = simulate_suspension(p, 1);
     for (Index k : {100, 5100, 9000, 20000}) {
-        const double h = p.Ts, x = 1e-3 * record.y[k];
-        const double rate = 1e-3 * (record.y[k + 1] - record.y[k - 1]) / (2 * h);
-        const double acceleration = 1e-3 * (record.y[k + 1] - 2 * record.y[k] + record.y[k - 1]) / (h * h);
-        EXPECT_NEAR(p.mass * acceleration + p.damping * rate + p.stiffness * x, p.force_per_volt * record.u[k], 2e-4)
+        const double h = p.Ts, x = 1e-3 * data_set.y[k];
+        const double rate = 1e-3 * (data_set.y[k + 1] - data_set.y[k - 1]) / (2 * h);
+        const double acceleration = 1e-3 * (data_set.y[k + 1] - 2 * data_set.y[k] + data_set.y[k - 1]) / (h * h);
+        EXPECT_NEAR(p.mass * acceleration + p.damping * rate + p.stiffness * x, p.force_per_volt * data_set.u[k], 2e-4)
             << k;
     }
 }
@@ -27,13 +27,13 @@ TEST(suspension, peaks_where_the_truth_says) {  // oracle: analytic
     p.noise_std = p.resolution = 0;
     p.Ts = 1e-4;
     const SuspensionTruth truth = suspension_truth(p);
-    const PlantData record = simulate_suspension(p, 1);
+    const PlantData data_set = simulate_suspension(p, 1);
     Index top = 0;
-    const double peak = record.y.maxCoeff(&top);
-    EXPECT_NEAR(record.t[top], truth.overshoot_time, p.Ts);
+    const double peak = data_set.y.maxCoeff(&top);
+    EXPECT_NEAR(data_set.t[top], truth.overshoot_time, p.Ts);
     EXPECT_NEAR(peak, truth.gain * (1 + truth.overshoot), 1e-6);
-    EXPECT_EQ(record.y[0], 0);
-    EXPECT_EQ(record.u.minCoeff(), 1);
+    EXPECT_EQ(data_set.y[0], 0);
+    EXPECT_EQ(data_set.u.minCoeff(), 1);
 }
 
 TEST(suspension, refuses_unphysical_values) {

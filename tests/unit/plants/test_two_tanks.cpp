@@ -86,15 +86,15 @@ TEST(two_tanks, run_over_their_rims) {  // oracle: statics of a full upper tank
 // oracle: a second route, Heun's method in steps of a hundredth of a second that stops at the rims
 TEST(two_tanks, follow_their_equations_over_a_whole_record) {
     const TwoTanksParameters p;
-    const TwoTanksRecords records = simulate_two_tanks(p, {}, 3);
+    const TwoTanksData data_sets = simulate_two_tanks(p, {}, 3);
     const TwoTanksTruth start = two_tanks_truth(p, TwoTanksExperiments().start_voltage);
-    const Matrix levels = two_tanks_levels(p, records.estimation.u, 4, {start.upper_level, start.lower_level});
+    const Matrix levels = two_tanks_levels(p, data_sets.estimation.u, 4, {start.upper_level, start.lower_level});
     double h1 = start.upper_level, h2 = start.lower_level, worst = 0, full = 0;
     const double step = 0.01;
     for (Index k = 0; k < levels.rows(); ++k) {
         worst = std::max({worst, std::abs(h1 - levels(k, 0)), std::abs(h2 - levels(k, 1))});
         full += levels(k, 0) == p.height ? 1 : 0;
-        const double inflow = p.k4 * records.estimation.u[k];
+        const double inflow = p.k4 * data_sets.estimation.u[k];
         const auto rate = [&](double a, double b) {
             const double net = inflow - p.k1 * std::sqrt(std::max(a, 0.));
             const bool over = a >= p.height && net > 0;
@@ -133,17 +133,17 @@ TEST(two_tanks, voltage_is_a_multisine) {  // oracle: definition of the discrete
 
 TEST(two_tanks, sensor_is_as_stated) {  // oracle: statistics with fixed seed, and rounding
     const TwoTanksParameters p;
-    const TwoTanksRecords records = simulate_two_tanks(p, {}, 5);
+    const TwoTanksData data_sets = simulate_two_tanks(p, {}, 5);
     const TwoTanksTruth start = two_tanks_truth(p, TwoTanksExperiments().start_voltage);
-    const Matrix levels = two_tanks_levels(p, records.validation.u, 4, {start.upper_level, start.lower_level});
-    const Vector noise = records.validation.y.array() - p.sensor_offset - p.sensor_gain * levels.col(1).array();
+    const Matrix levels = two_tanks_levels(p, data_sets.validation.u, 4, {start.upper_level, start.lower_level});
+    const Vector noise = data_sets.validation.y.array() - p.sensor_offset - p.sensor_gain * levels.col(1).array();
     const double expected = std::hypot(p.noise_std, p.resolution / std::sqrt(12.));
     EXPECT_NEAR(std::sqrt(mean_square(noise)), expected, 4 * expected / std::sqrt(2. * 1024));
-    for (double value : records.validation.y) EXPECT_NEAR(value / 0.01, std::round(value / 0.01), 1e-7);
+    for (double value : data_sets.validation.y) EXPECT_NEAR(value / 0.01, std::round(value / 0.01), 1e-7);
 }
 
 TEST(two_tanks, equal_seeds_give_equal_records) {
-    const TwoTanksRecords one = simulate_two_tanks({}, {}, 2), again = simulate_two_tanks({}, {}, 2);
+    const TwoTanksData one = simulate_two_tanks({}, {}, 2), again = simulate_two_tanks({}, {}, 2);
     EXPECT_EQ(one.estimation.y, again.estimation.y);
     EXPECT_EQ(one.validation.y, again.validation.y);
     EXPECT_NE(one.estimation.u, one.validation.u);

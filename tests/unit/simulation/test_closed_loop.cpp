@@ -42,7 +42,7 @@ TEST(closed_loop, sampled_loops_solve_both_equations) {
     for (const double delay : {0.0, 0.05, 0.12})
         for (const Index computing : {0, 1, 2}) {
             const TransferFunction G(Vector{{2}}, Vector{{1, 4, 3}}, 0, delay);
-            const IdData data = ClosedLoop(G, {pi, computing}, kTs).record(r, v);
+            const IdData data = ClosedLoop(G, {pi, computing}, kTs).simulate(r, v);
             const Experiment& loop = data.experiments.front();
             const Vector x = lsim(G, loop.u.col(0), kTs);
             EXPECT_LT((loop.y.col(0) - v - x).cwiseAbs().maxCoeff(), 1e-12) << delay << " " << computing;
@@ -116,7 +116,7 @@ TEST(closed_loop, continuous_loops_are_those_of_feedback) {
     EXPECT_LT((expected_value.u - lsim(feedback(C, G), r, kTs)).cwiseAbs().maxCoeff(), 1e-9);
     EXPECT_LT((disturbed.x + lsim(feedback(C * G, one), v, kTs, Hold::kFoh)).cwiseAbs().maxCoeff(), 1e-9);
     EXPECT_LT((disturbed.u + lsim(feedback(C, G), v, kTs, Hold::kFoh)).cwiseAbs().maxCoeff(), 1e-9);
-    EXPECT_EQ(loop.record(r, v).hold, Hold::kFoh);
+    EXPECT_EQ(loop.simulate(r, v).hold, Hold::kFoh);
 }
 
 TEST(closed_loop, an_unstable_plant_may_be_held) {  // oracle: poles by hand, 1/(s - 1) with gain 3 in s = -2
@@ -142,14 +142,15 @@ TEST(closed_loop, refuses_what_is_no_loop) {  // oracle: the sentence names the 
     EXPECT_THAT(refused(discrete(Vector{{1}}, Vector{{1, -0.5}}), {sampled_gain}), HasSubstr("continuous-time model"));
     EXPECT_EQ(refused(direct, {sampled_gain, 1}), "");
     const Vector r = Vector::Ones(10);
-    EXPECT_THAT(thrown_message([&] {
-                    ClosedLoop(TransferFunction(Vector{{1}}, Vector{{1, -1}}), {gain}, kTs).record(r, Vector::Zero(9));
-                }),
-                HasSubstr("10 samples but the noise has 9"));
+    EXPECT_THAT(
+        thrown_message([&] {
+            ClosedLoop(TransferFunction(Vector{{1}}, Vector{{1, -1}}), {gain}, kTs).simulate(r, Vector::Zero(9));
+        }),
+        HasSubstr("10 samples but the noise has 9"));
     EXPECT_THAT(thrown_message([&] {
                     ClosedLoop(TransferFunction(Vector{{9}}, Vector{{1, -1}}),
                                {TransferFunction(Vector{{0.1}}, Vector{{1}})}, kTs)
-                        .record(r, r);
+                        .simulate(r, r);
                 }),
                 HasSubstr("the loop is unstable"));
 }

@@ -21,10 +21,10 @@ double covariance(const Vector& Re, Index lag) {
 
 // N times the covariance of (1/N) sum_t e(t) u(t - a), summed pair by pair of instants. The effect of removing the mean
 // of e is exact for white e, and otherwise that of long data.
-Matrix by_pairs(const Vector& Re, const std::vector<Vector>& records, Index lags) {
+Matrix by_pairs(const Vector& Re, const std::vector<Vector>& data_sets, Index lags) {
     Matrix S = Matrix::Zero(lags + 1, lags + 1);
     double N = 0;
-    for (const Vector& u : records) {
+    for (const Vector& u : data_sets) {
         N += static_cast<double>(u.size());
         for (Index a = 0; a <= lags; ++a)
             for (Index b = 0; b <= lags; ++b) {
@@ -39,10 +39,10 @@ Matrix by_pairs(const Vector& Re, const std::vector<Vector>& records, Index lags
     return S / N;
 }
 
-Vector first_row(const Vector& Re, const std::vector<Vector>& records, Index lags) {
+Vector first_row(const Vector& Re, const std::vector<Vector>& data_sets, Index lags) {
     Vector g = Vector::Zero(lags + 1);
     double N = 0;
-    for (const Vector& u : records) {
+    for (const Vector& u : data_sets) {
         N += static_cast<double>(u.size());
         for (Index h = 0; h <= lags; ++h)
             for (Index s = 0; s < u.size(); ++s)
@@ -59,10 +59,10 @@ TEST(lagged_sums, covariance_is_that_of_the_sums) {  // oracle: the definition, 
     const std::vector<Vector> several{centered(RandomStream(2).normal(17)), centered(RandomStream(3).normal(4)),
                                       centered(RandomStream(4).normal(30))};
     for (const Vector& Re : {white, colored, slow})
-        for (const auto& records : {one, several})
+        for (const auto& data_sets : {one, several})
             for (const Index lags : {1, 6, 10}) {
-                const Matrix P = lagged_sum_covariance(first_row(Re, records, lags), Re, records);
-                const Matrix expected = by_pairs(Re, records, lags);
+                const Matrix P = lagged_sum_covariance(first_row(Re, data_sets, lags), Re, data_sets);
+                const Matrix expected = by_pairs(Re, data_sets, lags);
                 EXPECT_LT((P - expected).cwiseAbs().maxCoeff(), 1e-13 * expected.norm()) << lags << " " << Re.size();
             }
 }

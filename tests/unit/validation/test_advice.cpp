@@ -26,15 +26,15 @@ using testing::HasSubstr;
 
 constexpr double kTs = 0.1;
 
-struct Record {
+struct DataSet {
     Vector u, x, y;
 
     IdData data() const { return IdData(Matrix(y), Matrix(u), kTs); }
 };
 
 /// 2/(s^2 + s + 4) behind a dead time, driven by random levels.
-Record record(std::uint32_t seed = 1, double noise = 0.03, double delay = 0) {
-    Record r;
+DataSet simulated_data(std::uint32_t seed = 1, double noise = 0.03, double delay = 0) {
+    DataSet r;
     r.u = random_levels(1000, 8, seed);
     r.x = lsim(TransferFunction(Vector{{2.0}}, Vector{{1.0, 1.0, 4.0}}, 0, delay), r.u, kTs);
     r.y = r.x + noise * RandomStream(seed + 100).normal(1000);
@@ -56,7 +56,7 @@ std::string said(const Advice& advice, const std::string& code) {
 TEST(advice, clean_records_raise_no_warning) {  // oracle: nothing was put in; false alarms over 30 seeds
     int alarms = 0;
     for (std::uint32_t seed = 1; seed <= 30; ++seed) {
-        const Advice advice = advise(record(seed).data());
+        const Advice advice = advise(simulated_data(seed).data());
         alarms += !advice.clean();
         EXPECT_FALSE(advice.has("dead_time")) << seed << said(advice, "dead_time");
         EXPECT_TRUE(advice.clean()) << seed << "\n" << codes(advice);
@@ -65,13 +65,13 @@ TEST(advice, clean_records_raise_no_warning) {  // oracle: nothing was put in; f
 }
 
 TEST(advice, clean_noise_free_records_raise_no_warning) {
-    Record r = record(1, 0);
+    DataSet r = simulated_data(1, 0);
     EXPECT_TRUE(advise(r.data()).clean()) << codes(advise(r.data()));
 }
 
 TEST(advice, the_signal_to_noise_ratio_is_that_put_in) {  // oracle: known noise
     for (const double noise : {0.01, 0.1, 0.5}) {
-        const Record r = record(3, noise);
+        const DataSet r = simulated_data(3, noise);
         const double power = (r.x.array() - r.x.mean()).square().mean();
         const double decibels = 10 * std::log10(power / (noise * noise));
         const Advice advice = advise(r.data());
@@ -82,14 +82,14 @@ TEST(advice, the_signal_to_noise_ratio_is_that_put_in) {  // oracle: known noise
 }
 
 TEST(advice, dead_time_is_reported_in_seconds_and_samples) {  // oracle: the delay put in
-    const Advice advice = advise(record(2, 0.03, 0.85).data());
+    const Advice advice = advise(simulated_data(2, 0.03, 0.85).data());
     ASSERT_TRUE(advice.has("dead_time")) << codes(advice);
     EXPECT_NEAR(advice.find("dead_time")->value, 0.85, 0.03);
     EXPECT_TRUE(advice.clean()) << codes(advice);
 }
 
 TEST(advice, saturation_is_found_with_its_sections) {  // oracle: clipped data
-    Record r = record(4, 0);
+    DataSet r = simulated_data(4, 0);
     const double limit = 0.6 * r.x.maxCoeff();
     r.y = r.x.cwiseMin(limit);
     const Advice advice = advise(r.data());
@@ -126,7 +126,7 @@ TEST(advice, a_constant_input_may_be_a_step) {  // oracle: definition
 }
 
 TEST(advice, saturated_throughout_is_reported) {  // oracle: clipped at a tenth of the range, and a dead signal
-    Record r = record(5, 0);
+    DataSet r = simulated_data(5, 0);
     r.y = r.x.cwiseMin(0.1 * r.x.maxCoeff()).cwiseMax(0.1 * r.x.minCoeff());
     EXPECT_THAT(said(advise(r.data()), "saturation"), HasSubstr("Most of the data are saturated"));
     r.y.setConstant(5);
@@ -134,24 +134,24 @@ TEST(advice, saturated_throughout_is_reported) {  // oracle: clipped at a tenth 
 }
 
 TEST(advice, quantization_is_reported_with_its_step) {  // oracle: rounded by us
-    Record r = record(6);
+    DataSet r = simulated_data(6);
     r.y = (r.y.array() / 0.1).round() * 0.1;
     const Advice advice = advise(r.data());
     ASSERT_TRUE(advice.has("quantization")) << codes(advice);
     EXPECT_NEAR(advice.find("quantization")->value, 0.1, 1e-6);
-    r.y = (record(6).y.array() / 0.001).round() * 0.001;
+    r.y = (simulated_data(6).y.array() / 0.001).round() * 0.001;
     EXPECT_FALSE(advise(r.data()).has("quantization"));
 }
 
 TEST(advice, outliers_are_reported_with_their_places) {  // oracle: the places
-    Record r = record(7);
+    DataSet r = simulated_data(7);
     r.y[300] += 4, r.y[700] -= 3;  // beyond what fast passages of the signal can do
     const Advice advice = advise(r.data());
     EXPECT_THAT(said(advice, "outliers"), HasSubstr("2 samples far from the neighboring samples (301, 701)"));
 }
 
 TEST(advice, offsets_are_reported) {  // oracle: the offset put in
-    Record r = record(8);
+    DataSet r = simulated_data(8);
     r.y.array() += 20;
     const Advice advice = advise(r.data());
     ASSERT_TRUE(advice.has("offset")) << codes(advice);
@@ -159,7 +159,7 @@ TEST(advice, offsets_are_reported) {  // oracle: the offset put in
 }
 
 TEST(advice, a_running_start_is_reported) {  // oracle: data cut out of a movement
-    Record r = record(9, 0.01);
+    DataSet r = simulated_data(9, 0.01);
     Index fastest = 0;
     (r.x.segment(101, 400) - r.x.segment(100, 400)).cwiseAbs().maxCoeff(&fastest);
     const IdData cut = r.data().range(fastest + 101, 1000);
@@ -169,8 +169,8 @@ TEST(advice, a_running_start_is_reported) {  // oracle: data cut out of a moveme
 TEST(advice, a_drifting_plant_at_rest_does_not_begin_in_a_movement) {  // oracle: a minute at the equilibrium
     const HeatTransferExperiments experiments;
     for (const std::uint32_t seed : {1u, 2u, 3u}) {
-        const HeatTransferRecords records = simulate_heat_transfer({}, experiments, seed);
-        for (const PlantData* r : {&records.estimation, &records.validation, &records.high}) {
+        const HeatTransferData data_sets = simulate_heat_transfer({}, experiments, seed);
+        for (const PlantData* r : {&data_sets.estimation, &data_sets.validation, &data_sets.high}) {
             const Advice advice = advise(IdData(Matrix(r->y), Matrix(r->u), experiments.Ts));
             EXPECT_FALSE(advice.has("running_start")) << seed << ", from " << r->u[0] << " V\n" << codes(advice);
         }
@@ -181,7 +181,7 @@ TEST(advice, planted_starts_are_found_whether_the_input_rests_or_moves) {  // or
     for (const Index rest : {0, 60}) {
         int found = 0;
         for (std::uint32_t seed = 1; seed <= 10; ++seed) {
-            Record r = record(seed);
+            DataSet r = simulated_data(seed);
             r.u.head(rest).setZero();
             const TransferFunction G(Vector{{2.0}}, Vector{{1.0, 1.0, 4.0}});
             const double level = seed % 2 == 0 ? 0.5 : -0.5;
@@ -209,7 +209,7 @@ double excited_parameters(Vector u) {
 
 TEST(advice, counts_what_an_input_can_determine) {  // oracle: singular values of the copies written out
     for (const int sines : {3, 4, 6}) {
-        Record r = record();
+        DataSet r = simulated_data();
         for (Index k = 0; k < r.u.size(); ++k) {
             const double t = static_cast<double>(k);
             r.u[k] = 0;
@@ -225,13 +225,13 @@ TEST(advice, counts_what_an_input_can_determine) {  // oracle: singular values o
 }
 
 TEST(advice, poor_excitation_is_reported) {  // oracle: one sine determines two parameters, a PRBS many
-    Record r = record();
+    DataSet r = simulated_data();
     for (Index k = 0; k < 1000; ++k) r.u[k] = std::sin(0.13 * static_cast<double>(k));
     r.y = lsim(TransferFunction(Vector{{2.0}}, Vector{{1.0, 1.0, 4.0}}), r.u, kTs);
     const Advice advice = advise(r.data());
     EXPECT_THAT(said(advice, "poor_excitation"),
                 HasSubstr("no more than 2 parameters: it contains only about 1 frequency"));
-    EXPECT_EQ(advise(record().data()).find("excitation")->value, 20);
+    EXPECT_EQ(advise(simulated_data().data()).find("excitation")->value, 20);
 }
 
 TEST(advice,
@@ -264,20 +264,20 @@ TEST(advice, band_passes_and_integrators_have_no_false_bandwidth) {  // oracle: 
 }
 
 TEST(advice, degrees_declared_as_radians_are_reported) {  // oracle: the unit put in
-    Record r = record(12);
+    DataSet r = simulated_data(12);
     r.y *= 30;
     IdData data = r.data();
     data.output_units = {"rad"};
     EXPECT_THAT(said(advise(data), "degrees"), AllOf(HasSubstr("probably degrees"), HasSubstr("pi/180")));
     data.output_units = {"deg"};
     EXPECT_FALSE(advise(data).has("degrees"));
-    IdData small = record(12).data();
+    IdData small = simulated_data(12).data();
     small.output_units = {"rad"};
     EXPECT_FALSE(advise(small).has("degrees"));
 }
 
 TEST(advice, wrong_columns_are_reported) {  // oracle: columns mixed up by us
-    const Record r = record(13, 0.02);
+    const DataSet r = simulated_data(13, 0.02);
     const Vector t = Vector::LinSpaced(1000, 0, 99.9);
     EXPECT_THAT(said(advise(IdData(Matrix(r.y), Matrix(t), kTs)), "time_column"), HasSubstr(", like a time"));
     EXPECT_THAT(said(advise(IdData(Matrix(r.y), Matrix(r.y), kTs)), "same_column"), HasSubstr("read twice"));
@@ -285,7 +285,7 @@ TEST(advice, wrong_columns_are_reported) {  // oracle: columns mixed up by us
 }
 
 TEST(advice, sampling_instants_are_looked_at) {  // oracle: instants put together by us
-    const Record r = record(14);
+    const DataSet r = simulated_data(14);
     Vector mixed(1000), gaps(1000);
     for (Index k = 0; k < 1000; ++k) {
         mixed[k] = k < 600 ? 0.1 * static_cast<double>(k) : 60 + 0.2 * static_cast<double>(k - 600);
@@ -300,7 +300,7 @@ TEST(advice, sampling_instants_are_looked_at) {  // oracle: instants put togethe
 }
 
 TEST(advice, sections_that_do_not_follow_are_reported) {  // oracle: the section that the test corrupts
-    Record r = record(15, 0.02);
+    DataSet r = simulated_data(15, 0.02);
     for (Index k = 500; k < 570; ++k) r.y[k] += 0.8 * std::sin(0.09 * static_cast<double>(k - 500));
     const Advice advice = advise(r.data());
     ASSERT_TRUE(advice.has("nonlinear")) << codes(advice);
@@ -310,11 +310,11 @@ TEST(advice, sections_that_do_not_follow_are_reported) {  // oracle: the section
 }
 
 TEST(advice, short_records_are_reported) {
-    EXPECT_THAT(said(advise(record().data().range(1, 40)), "short"), HasSubstr("only 40 samples"));
+    EXPECT_THAT(said(advise(simulated_data().data().range(1, 40)), "short"), HasSubstr("only 40 samples"));
 }
 
 TEST(advice, outputs_are_evaluated_separately) {  // oracle: only the second has an offset
-    const Record r = record(16);
+    const DataSet r = simulated_data(16);
     Matrix y(1000, 2);
     y << r.y, r.y.array() + 9;
     const Advice advice = advise(IdData(y, Matrix(r.u), kTs));
@@ -341,7 +341,7 @@ IdData bent_at_input(const Bend& bend) {
 
 TEST(advice,
      an_applied_input_is_never_saturated) {  // oracle: definition; the old rule found a limit in every staircase
-    Record r = record();
+    DataSet r = simulated_data();
     r.u = random_heights(1000, 12, 3).cwiseMin(1).cwiseMax(-1);
     r.y =
         lsim(TransferFunction(Vector{{2.0}}, Vector{{1.0, 1.0, 4.0}}), r.u, kTs) + 0.01 * RandomStream(5).normal(1000);
@@ -351,14 +351,14 @@ TEST(advice,
 }
 
 TEST(advice, a_clock_that_jitters_is_no_fault) {  // oracle: ticks of a millisecond
-    const Record r = record(14);
+    const DataSet r = simulated_data(14);
     Vector t(1000);
     for (Index k = 0; k < 1000; ++k) t[k] = std::floor(10.4 * static_cast<double>(k)) / 1000;
     EXPECT_TRUE(advise(IdData(Matrix(r.y), Matrix(r.u), t)).clean());
 }
 
 TEST(advice, drift_is_reported_with_its_size) {  // oracle: the line put in
-    Record r = record(17);
+    DataSet r = simulated_data(17);
     r.y += Vector::LinSpaced(1000, 0, 1.5);
     const Advice advice = advise(r.data());
     ASSERT_TRUE(advice.has("drift")) << codes(advice);
@@ -368,7 +368,7 @@ TEST(advice, drift_is_reported_with_its_size) {  // oracle: the line put in
 
 TEST(advice, a_drift_that_a_slow_pole_could_run_out_from_is_reported) {  // oracle: the lines put in
     for (const double rise : {-2.0, 1.0}) {
-        Record r = record(21);
+        DataSet r = simulated_data(21);
         r.y += Vector::LinSpaced(1000, 0, rise);
         const Advice advice = advise(r.data());
         ASSERT_TRUE(advice.has("drift")) << codes(advice);
@@ -377,7 +377,7 @@ TEST(advice, a_drift_that_a_slow_pole_could_run_out_from_is_reported) {  // orac
 }
 
 TEST(advice, a_random_walk_is_reported) {  // oracle: sums of seeded normal numbers
-    Record r = record(18);
+    DataSet r = simulated_data(18);
     double walk = 0;
     RandomStream steps(40);
     for (Index k = 0; k < 1000; ++k) r.y[k] += walk += 0.03 * steps.normal();
@@ -429,7 +429,7 @@ TEST(advice, an_integrator_is_reported) {  // oracle: the pole put in
 }
 
 TEST(advice, an_extrapolated_offset_is_reported_as_such) {  // oracle: the input never comes near zero
-    Record r = record(8);
+    DataSet r = simulated_data(8);
     r.u.array() += 10;
     r.y.array() += 23.4567;
     EXPECT_THAT(said(advise(r.data()), "offset"),
@@ -439,7 +439,7 @@ TEST(advice, an_extrapolated_offset_is_reported_as_such) {  // oracle: the input
 TEST(advice, a_crane_at_rest_does_not_begin_in_a_movement) {  // oracle: a second of rest, read as 0.012 rad
     const CraneExperiments experiments;
     for (const std::uint32_t seed : {1u, 2u})
-        for (const CraneRecord& crane : simulate_crane({}, experiments, seed)) {
+        for (const CraneData& crane : simulate_crane({}, experiments, seed)) {
             if (crane.name != "estimation" && crane.name != "validation") continue;
             const Advice advice = advise(IdData(Matrix(crane.theta), Matrix(crane.u), experiments.Ts));
             EXPECT_FALSE(advice.has("running_start")) << crane.name << seed << codes(advice);
@@ -453,7 +453,7 @@ TEST(advice, a_crane_at_rest_does_not_begin_in_a_movement) {  // oracle: a secon
 }
 
 TEST(advice, a_rest_without_an_offset_is_no_offset) {  // oracle: noise about zero, a level, a slope, put in
-    Record r = record(21);
+    DataSet r = simulated_data(21);
     r.u.head(60).setZero();
     const Vector x = lsim(TransferFunction(Vector{{1.0}}, Vector{{1.0, 1.0}}), r.u, kTs);
     const Vector noise = 0.02 * RandomStream(22).normal(x.size());
@@ -525,7 +525,7 @@ TEST(advice, outliers_of_any_height_are_found) {  // oracle: the places, every 9
 TEST(advice, noise_that_forgets_is_no_random_walk) {  // oracle: AR(0.9) noise, which settles within 20 samples
     int walks = 0;
     for (std::uint32_t seed = 1; seed <= 10; ++seed) {
-        Record r = record(seed, 0);
+        DataSet r = simulated_data(seed, 0);
         Vector e = RandomStream(seed + 500).normal(1000);
         for (Index k = 1; k < e.size(); ++k) e[k] += 0.9 * e[k - 1];
         r.y = r.x + 0.03 * e;
@@ -562,7 +562,7 @@ TEST(advice, an_input_logged_late_is_named) {  // oracle: the column shifted by 
 }
 
 TEST(advice, an_angle_that_jumps_by_a_turn_is_named) {  // oracle: wrapped by us
-    Record r = record(19, 0.01);
+    DataSet r = simulated_data(19, 0.01);
     r.y *= 250 / r.x.cwiseAbs().maxCoeff();
     EXPECT_FALSE(advise(r.data()).has("wrapped"));
     r.y = r.y.unaryExpr([](double v) { return v - 360 * std::floor((v + 180) / 360); });
@@ -581,7 +581,7 @@ TEST(advice, a_load_on_an_integrator_is_named_with_its_size) {  // oracle: the l
 }
 
 TEST(advice, one_of_several_inputs_that_rests_is_named) {  // oracle: the input held by us
-    const Record r = record(20);
+    const DataSet r = simulated_data(20);
     Matrix u(1000, 2);
     u << r.u, Vector::Constant(1000, 20);
     IdData data(Matrix(r.y), u, kTs);
@@ -590,7 +590,7 @@ TEST(advice, one_of_several_inputs_that_rests_is_named) {  // oracle: the input 
 }
 
 TEST(advice, a_lag_is_not_called_a_dead_time) {  // oracle: four poles, no delay; and a delay of ten samples
-    Record r = record(22);
+    DataSet r = simulated_data(22);
     r.x = lsim(TransferFunction(Vector{{4.0}}, Vector{{1.0, 1.0, 4.0}}) *
                    TransferFunction(Vector{{16.0}}, Vector{{1.0, 8.0, 16.0}}),
                r.u, kTs);
@@ -599,7 +599,7 @@ TEST(advice, a_lag_is_not_called_a_dead_time) {  // oracle: four poles, no delay
     if (advice.has("dead_time")) {
         EXPECT_THAT(said(advice, "dead_time"), HasSubstr("another pole: compare both"));
     }
-    EXPECT_THAT(said(advise(record(2, 0.03, 1.0).data()), "dead_time"), HasSubstr("Add a dead time"));
+    EXPECT_THAT(said(advise(simulated_data(2, 0.03, 1.0).data()), "dead_time"), HasSubstr("Add a dead time"));
 }
 
 }  // namespace test_advice

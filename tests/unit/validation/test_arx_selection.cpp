@@ -31,7 +31,7 @@ Experiment experiment(std::uint32_t seed, Index samples) {
     return one;
 }
 
-IdData record(std::uint32_t seed, Index samples = 600) {
+IdData simulated_data(std::uint32_t seed, Index samples = 600) {
     const Experiment one = experiment(seed, samples);
     return IdData(one.y, one.u, 1);
 }
@@ -61,9 +61,9 @@ Equations written_out(const IdData& data, int na, int nb, int nk, Index past) {
 }
 
 TEST(arx_selection, losses_are_those_of_the_equations_written_out) {
-    IdData data = record(1);
+    IdData data = simulated_data(1);
     data.experiments.push_back(experiment(2, 200));
-    const IdData unseen = record(3, 300);
+    const IdData unseen = simulated_data(3, 300);
     const ArxRanges ranges{{0, 3}, {1, 3}, {1, 3}};
     const Index past = 3 + 3 - 1;
     const ArxSelection selection = select_arx(data, ranges, &unseen);
@@ -91,7 +91,8 @@ ArxCandidate chosen(const ArxSelection& selection, ArxCriterion criterion) {
 
 TEST(arx_selection, finds_the_orders_that_made_the_record) {
     for (const std::uint32_t seed : {1u, 2u, 3u, 4u}) {
-        const ArxCandidate best = chosen(select_arx(record(seed), {{1, 4}, {1, 4}, {1, 3}}), ArxCriterion::kBic);
+        const ArxCandidate best =
+            chosen(select_arx(simulated_data(seed), {{1, 4}, {1, 4}, {1, 3}}), ArxCriterion::kBic);
         EXPECT_EQ(best.na, 2) << seed;
         EXPECT_EQ(best.nb, 2) << seed;
         EXPECT_EQ(best.nk, 2) << seed;
@@ -99,7 +100,7 @@ TEST(arx_selection, finds_the_orders_that_made_the_record) {
 }
 
 TEST(arx_selection, own_loss_falls_with_every_parameter_and_the_choice_says_so) {  // oracle: nested least squares
-    const ArxSelection alone = select_arx(record(1), {{1, 4}, {2, 2}, {2, 2}});
+    const ArxSelection alone = select_arx(simulated_data(1), {{1, 4}, {2, 2}, {2, 2}});
     for (std::size_t i = 1; i < alone.candidates.size(); ++i)
         EXPECT_LE(alone.candidates[i].loss, alone.candidates[i - 1].loss);
     const OrderChoice choice = choose_arx(alone, ArxCriterion::kLoss);
@@ -110,15 +111,15 @@ TEST(arx_selection, own_loss_falls_with_every_parameter_and_the_choice_says_so) 
     EXPECT_THAT(message_text(choice.explanation),
                 HasSubstr("With 4 parameters instead of 6, {2, 2, 2} has a loss that is at most 1 %"));
     EXPECT_EQ(usual_criterion(alone), ArxCriterion::kBic);
-    const IdData unseen = record(2, 5000);
-    const ArxSelection both = select_arx(record(1), {{1, 4}, {2, 2}, {2, 2}}, &unseen);
+    const IdData unseen = simulated_data(2, 5000);
+    const ArxSelection both = select_arx(simulated_data(1), {{1, 4}, {2, 2}, {2, 2}}, &unseen);
     EXPECT_EQ(usual_criterion(both), ArxCriterion::kLoss);
     EXPECT_THAT(message_text(choose_arx(both, ArxCriterion::kLoss).explanation), HasSubstr("on the validation data"));
     EXPECT_THAT(message_text(choose_arx(both, ArxCriterion::kAic).explanation), Not(HasSubstr("record")));
 }
 
 TEST(arx_selection, a_poor_input_chooses_what_it_determines) {  // oracle: a constant determines one coefficient
-    IdData data = record(1);
+    IdData data = simulated_data(1);
     data.experiments[0].u.setOnes();
     data.experiments[0].y = RandomStream(3).normal(600);
     const ArxSelection selection = select_arx(data, {{1, 1}, {1, 2}, {1, 1}});
@@ -128,7 +129,7 @@ TEST(arx_selection, a_poor_input_chooses_what_it_determines) {  // oracle: a con
 }
 
 TEST(arx_selection, says_what_is_wrong) {
-    const IdData data = record(1, 60);
+    const IdData data = simulated_data(1, 60);
     const auto complaint = [&](const ArxRanges& ranges) { return thrown_message([&] { select_arx(data, ranges); }); };
     EXPECT_THAT(complaint({{2, 1}, {1, 1}, {1, 1}}), HasSubstr("na must be a number or a range"));
     EXPECT_THAT(complaint({{1, 1}, {0, 1}, {1, 1}}), HasSubstr("nb must be"));

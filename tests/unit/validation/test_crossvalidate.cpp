@@ -19,13 +19,13 @@ using testing::HasSubstr;
 const TransferFunction kG(Vector{{2.0}}, Vector{{1.0, 4.0, 3.0}});
 constexpr double kTs = 0.05;
 
-IdData record(double noise) {
+IdData simulated_data(double noise) {
     const Vector u = prbs(7, 8);
     return IdData(Matrix(lsim(kG, u, kTs) + noise * RandomStream(1).normal(u.size())), Matrix(u), kTs);
 }
 
 TEST(crossvalidate, folds_cover_the_record_and_training_never_sees_them) {  // oracle: counting samples
-    IdData data = record(0.1);
+    IdData data = simulated_data(0.1);
     const Index N = data.sample_count();
     data.experiments[0].u.col(0) = Vector::LinSpaced(N, 1, static_cast<double>(N));  // numbers its samples
     std::vector<std::vector<double>> seen;
@@ -52,7 +52,7 @@ TEST(crossvalidate, folds_cover_the_record_and_training_never_sees_them) {  // o
 }
 
 TEST(crossvalidate, the_true_model_fits_every_noise_free_fold) {  // oracle: the simulated truth
-    const auto result = cross_validate(record(0), [](const IdData&) { return std::vector{kG}; });
+    const auto result = cross_validate(simulated_data(0), [](const IdData&) { return std::vector{kG}; });
     EXPECT_EQ(result.fit_percent.rows(), 5);
     EXPECT_GT(result.fit_percent.minCoeff(), 100 - 1e-6);
     EXPECT_LT(result.spread[0], 1e-6);
@@ -60,7 +60,7 @@ TEST(crossvalidate, the_true_model_fits_every_noise_free_fold) {  // oracle: the
 }
 
 TEST(crossvalidate, fit_of_a_fold_is_that_of_compare) {  // oracle: second route
-    const IdData data = record(0.3);
+    const IdData data = simulated_data(0.3);
     const auto result = cross_validate(data, [](const IdData&) { return std::vector{kG}; }, {.folds = 4});
     for (Index k = 0; k < 4; ++k) {
         const auto& fold = result.folds[static_cast<std::size_t>(k)];
@@ -70,7 +70,7 @@ TEST(crossvalidate, fit_of_a_fold_is_that_of_compare) {  // oracle: second route
 }
 
 TEST(crossvalidate, leaves_out_experiments) {  // oracle: counting samples
-    const IdData whole = record(0.1);
+    const IdData whole = simulated_data(0.1);
     const IdData data = IdData::merge({whole.range(1, 300), whole.range(301, 500), whole.range(501, 1016)});
     std::vector<Index> sizes;
     const auto result = cross_validate(data,
@@ -89,15 +89,16 @@ TEST(crossvalidate, stops_when_asked_and_passes_errors_on) {
     const auto fit = [&](const IdData&) { return ++calls, std::vector{kG}; };
     CrossValidationOptions options;
     options.cancel = [&] { return calls == 2; };
-    EXPECT_EQ(cross_validate(record(0.1), fit, options).folds.size(), 2u);
-    EXPECT_THROW(cross_validate(record(0.1), [](const IdData&) -> std::vector<TransferFunction> { throw 3; }), int);
+    EXPECT_EQ(cross_validate(simulated_data(0.1), fit, options).folds.size(), 2u);
+    EXPECT_THROW(cross_validate(simulated_data(0.1), [](const IdData&) -> std::vector<TransferFunction> { throw 3; }),
+                 int);
 }
 
 TEST(crossvalidate, an_unstable_model_is_reported_not_thrown) {
     const TransferFunction wild(Vector{{1.0}}, Vector{{1.0, -100.0}});
     int calls = 0;
     const auto result =
-        cross_validate(record(0.1), [&](const IdData&) { return std::vector{++calls == 2 ? wild : kG}; },
+        cross_validate(simulated_data(0.1), [&](const IdData&) { return std::vector{++calls == 2 ? wild : kG}; },
                        {.folds = 2, .simulation = {InitialState::kZero, Offset::kNone}});
     EXPECT_TRUE(std::isfinite(result.fit_percent(0, 0)));
     EXPECT_EQ(result.fit_percent(1, 0), -std::numeric_limits<double>::infinity());
@@ -106,9 +107,9 @@ TEST(crossvalidate, an_unstable_model_is_reported_not_thrown) {
 
 TEST(crossvalidate, refuses_folds_that_cannot_be) {
     const auto fit = [](const IdData&) { return std::vector{kG}; };
-    EXPECT_THROW(cross_validate(record(0.1), fit, {.folds = 1}), InvalidArgument);
-    EXPECT_THROW(cross_validate(record(0.1), fit, {.folds = 200}), InvalidArgument);
-    EXPECT_THROW(cross_validate(record(0.1), fit, {.by_experiment = true}), InvalidArgument);
+    EXPECT_THROW(cross_validate(simulated_data(0.1), fit, {.folds = 1}), InvalidArgument);
+    EXPECT_THROW(cross_validate(simulated_data(0.1), fit, {.folds = 200}), InvalidArgument);
+    EXPECT_THROW(cross_validate(simulated_data(0.1), fit, {.by_experiment = true}), InvalidArgument);
 }
 
 }  // namespace test_crossvalidate

@@ -19,7 +19,7 @@ using namespace dynlab;
 using namespace dynlab::test;
 
 /// Two resonances, so that far from its delay a model has several minima; 4 % noise.
-IdData resonant_record() {
+IdData resonant_data() {
     const Vector u = prbs(8, 4);
     const TransferFunction G(values({-1200, 300, 2400}), values({1, 8, 110, 200, 600}), 0, 0.1);
     const Vector x = lsim(G, u, 0.05);
@@ -67,13 +67,13 @@ void expect_profile(const IdData& data, int poles, int zeros, const Vector& dela
 }
 
 TEST(delay_profile, is_the_best_fit_with_each_delay_held) {
-    expect_profile(delayed_record(), 2, 0, steps_of(0.1, 30));
-    expect_profile(delayed_record(), 3, 1, steps_of(0.1, 30));
-    expect_profile(resonant_record(), 3, 1, steps_of(0.05, 24));
+    expect_profile(delayed_data(), 2, 0, steps_of(0.1, 30));
+    expect_profile(delayed_data(), 3, 1, steps_of(0.1, 30));
+    expect_profile(resonant_data(), 3, 1, steps_of(0.05, 24));
 }
 
 TEST(delay_profile, a_start_condition_holds_for_all_delays) {  // oracle: what the output has more, whatever the delay
-    IdData data = delayed_record();
+    IdData data = delayed_data();
     const Vector delays = steps_of(0.1, 12);
     const TransferStructure structure = TransferStructure::single(2, 0);
     const Vector centered = delay_profile(data, structure, {InitialState::kZero, true}, delays, {}, 1);
@@ -83,7 +83,7 @@ TEST(delay_profile, a_start_condition_holds_for_all_delays) {  // oracle: what t
 }
 
 TEST(delay_profile, several_channels_are_refused) {
-    IdData two = delayed_record();
+    IdData two = delayed_data();
     TransferStructure structure = TransferStructure::single(1, 0);
     structure.inputs = 2;
     structure.channels.push_back(structure.channels.front());

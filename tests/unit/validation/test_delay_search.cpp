@@ -21,7 +21,7 @@ using testing::Not;
 
 const TransferFunction kTrap(Vector{{-4, 0.5}}, Vector{{1, 1, 4}}, 0, 8);  // a published test problem
 
-IdData record(const TransferFunction& G, const Vector& u, double Ts, double snr, std::uint32_t seed) {
+IdData simulated_data(const TransferFunction& G, const Vector& u, double Ts, double snr, std::uint32_t seed) {
     const Vector x = lsim(G, u, Ts);
     const double sigma = std::sqrt((x.array() - x.mean()).square().mean()) * std::pow(10, -snr / 20);
     return IdData(Matrix(x + sigma * RandomStream(seed).normal(x.size())), Matrix(u), Ts);
@@ -29,7 +29,7 @@ IdData record(const TransferFunction& G, const Vector& u, double Ts, double snr,
 
 TEST(delay_search, delay_trap_is_avoided_from_default_settings) {  // oracle: the simulated system
     for (const std::uint32_t seed : {1u, 2u, 3u}) {
-        const DelaySearch search = search_delay(record(kTrap, prbs(8, 5), 0.1, 15, seed));
+        const DelaySearch search = search_delay(simulated_data(kTrap, prbs(8, 5), 0.1, 15, seed));
         EXPECT_LT(std::abs(search.delay - 8), 4 * search.std) << message_text(search.explanation);
         EXPECT_LT(search.std, 0.1);
         EXPECT_EQ(search.candidate.poles, 2) << message_text(search.explanation);
@@ -40,7 +40,7 @@ TEST(delay_search, delay_trap_is_avoided_from_default_settings) {  // oracle: th
 
 TEST(delay_search, delays_between_samples_are_found) {  // oracle: the simulated system
     const TransferFunction G(Vector{{3}}, Vector{{1, 2, 5}}, 0, 0.437);
-    const DelaySearch search = search_delay(record(G, prbs(7, 12), 0.05, 20, 1));
+    const DelaySearch search = search_delay(simulated_data(G, prbs(7, 12), 0.05, 20, 1));
     EXPECT_NEAR(search.delay, 0.437, 4 * search.std);
     EXPECT_LT(search.std, 0.02);
     EXPECT_THAT(message_text(search.explanation), HasSubstr("samples), with a standard error"));
@@ -54,7 +54,7 @@ TEST(delay_search, delays_between_samples_are_found) {  // oracle: the simulated
 }
 
 TEST(delay_search, curve_is_the_loss_of_the_best_model_at_each_delay) {  // oracle: srivc with that delay fixed
-    const IdData data = record(kTrap, prbs(8, 5), 0.1, 15, 1);
+    const IdData data = simulated_data(kTrap, prbs(8, 5), 0.1, 15, 1);
     DelaySearchOptions options;
     options.poles = {2, 2};
     options.zeros = {1, 1};
@@ -68,7 +68,8 @@ TEST(delay_search, curve_is_the_loss_of_the_best_model_at_each_delay) {  // orac
 }
 
 TEST(delay_search, no_delay_is_worse_than_no_model) {  // oracle: a gain of zero leaves the output itself
-    const IdData data = record(TransferFunction(Vector{{2}}, Vector{{1, 4, 3}}, 0, 0.1), prbs(7, 8), 0.05, 8, 1);
+    const IdData data =
+        simulated_data(TransferFunction(Vector{{2}}, Vector{{1, 4, 3}}, 0, 0.1), prbs(7, 8), 0.05, 8, 1);
     DelaySearchOptions options;
     options.poles = {2, 2};
     options.zeros = {0, 0};
@@ -80,7 +81,7 @@ TEST(delay_search, no_delay_is_worse_than_no_model) {  // oracle: a gain of zero
 
 TEST(delay_search, no_delay_is_reported) {  // oracle: the simulated system has none
     const TransferFunction G(Vector{{2}}, Vector{{1, 4, 3}});
-    const DelaySearch search = search_delay(record(G, prbs(7, 8), 0.05, 10, 1));
+    const DelaySearch search = search_delay(simulated_data(G, prbs(7, 8), 0.05, 10, 1));
     EXPECT_LT(search.delay, 0.1);
     EXPECT_THAT(message_text(search.explanation), HasSubstr("does not differ significantly from zero"));
 }
@@ -89,7 +90,7 @@ TEST(delay_search, rivals_of_periodic_inputs_are_reported) {
     // Oracle: one period of the sine later everything looks the same but the beginning, which the noise hides.
     const Vector t = Vector::LinSpaced(2000, 0, 99.95);
     const Vector u = (2 * t).array().sin();
-    const IdData data = record(TransferFunction(Vector{{1}}, Vector{{0.3, 1}}, 0, 1), u, 0.05, -15, 3);
+    const IdData data = simulated_data(TransferFunction(Vector{{1}}, Vector{{0.3, 1}}, 0, 1), u, 0.05, -15, 3);
     DelaySearchOptions options;
     options.poles = {1, 1};
     options.zeros = {0, 0};
@@ -100,7 +101,7 @@ TEST(delay_search, rivals_of_periodic_inputs_are_reported) {
 }
 
 TEST(delay_search, same_numbers_for_any_number_of_threads) {  // oracle: one thread, bit for bit
-    const IdData data = record(kTrap, prbs(8, 5), 0.1, 15, 2);
+    const IdData data = simulated_data(kTrap, prbs(8, 5), 0.1, 15, 2);
     DelaySearchOptions options;
     options.poles = {1, 2};
     options.threads = 1;
@@ -114,11 +115,11 @@ TEST(delay_search, same_numbers_for_any_number_of_threads) {  // oracle: one thr
 TEST(delay_search, stops_when_asked_to) {
     DelaySearchOptions options;
     options.cancel = [] { return true; };
-    EXPECT_TRUE(search_delay(record(kTrap, prbs(8, 5), 0.1, 15, 1), options).canceled);
+    EXPECT_TRUE(search_delay(simulated_data(kTrap, prbs(8, 5), 0.1, 15, 1), options).canceled);
 }
 
 TEST(delay_search, refuses_what_cannot_be_searched) {
-    const IdData data = record(kTrap, prbs(8, 5), 0.1, 15, 1);
+    const IdData data = simulated_data(kTrap, prbs(8, 5), 0.1, 15, 1);
     DelaySearchOptions options;
     options.estimation.least_delay = options.estimation.largest_delay.emplace(2);
     EXPECT_THAT(thrown_message([&] { search_delay(data, options); }),

@@ -26,7 +26,7 @@ using testing::Not;
 const TransferFunction kSecondOrder(Vector{{2.0}}, Vector{{1.0, 4.0, 3.0}});
 const TransferFunction kRaoGarnier(Vector{{-6400.0, 1600.0}}, Vector{{1.0, 5.0, 408.0, 416.0, 1600.0}});
 
-IdData record(const TransferFunction& G, const Vector& u, double Ts, double snr, std::uint32_t seed) {
+IdData simulated_data(const TransferFunction& G, const Vector& u, double Ts, double snr, std::uint32_t seed) {
     const Vector x = lsim(G, u, Ts);
     const double sigma = std::sqrt((x.array() - x.mean()).square().mean()) * std::pow(10, -snr / 20);
     return IdData(Matrix(x + sigma * RandomStream(seed).normal(x.size())), Matrix(u), Ts);
@@ -51,7 +51,7 @@ TEST(order_selection, grid_holds_every_strictly_proper_structure) {  // oracle: 
 
 TEST(order_selection, finds_the_orders_of_rao_and_garniers_system) {  // oracle: the simulated system
     for (const std::uint32_t seed : {1u, 2u, 3u}) {
-        const IdData data = record(kRaoGarnier, prbs(10, 7), 0.01, 10, seed);
+        const IdData data = simulated_data(kRaoGarnier, prbs(10, 7), 0.01, 10, seed);
         const OrderSelection selection = select_order(data, order_grid({3, 5}, {0, 1}, {0.0}));
         EXPECT_EQ(chosen(selection).poles, 4) << seed;
         EXPECT_EQ(chosen(selection).zeros, 1) << seed;
@@ -60,7 +60,7 @@ TEST(order_selection, finds_the_orders_of_rao_and_garniers_system) {  // oracle:
 
 TEST(order_selection, finds_two_poles_and_no_zero) {  // oracle: the simulated system
     for (const std::uint32_t seed : {1u, 2u, 3u}) {
-        const IdData data = record(kSecondOrder, prbs(7, 8), 0.05, 10, seed);
+        const IdData data = simulated_data(kSecondOrder, prbs(7, 8), 0.05, 10, seed);
         const OrderSelection selection = select_order(data, order_grid({1, 4}, {0, 2}, {0.0}));
         EXPECT_EQ(chosen(selection).poles, 2) << seed;
         EXPECT_EQ(chosen(selection).zeros, 0) << seed;
@@ -68,8 +68,8 @@ TEST(order_selection, finds_two_poles_and_no_zero) {  // oracle: the simulated s
 }
 
 TEST(order_selection, a_second_record_decides_when_it_is_given) {  // oracle: the simulated system
-    const IdData data = record(kSecondOrder, prbs(7, 8), 0.05, 20, 1),
-                 other = record(kSecondOrder, prbs(8, 5), 0.05, 20, 2);
+    const IdData data = simulated_data(kSecondOrder, prbs(7, 8), 0.05, 20, 1),
+                 other = simulated_data(kSecondOrder, prbs(8, 5), 0.05, 20, 2);
     OrderSelectionOptions options;
     options.validation = &other;
     const OrderSelection selection = select_order(data, order_grid({1, 3}, {0, 1}, {0.0}), options);
@@ -82,7 +82,7 @@ TEST(order_selection, a_second_record_decides_when_it_is_given) {  // oracle: th
 // Oracles: srivc() of the integrated data with the integrator appended, compare() of that model, the system.
 TEST(order_selection, structures_with_an_integrator_are_evaluated_with_it) {
     const TransferFunction G(Vector{{3.0}}, Vector{{1.0, 2.0, 0.0}});
-    const IdData data = record(G, prbs(7, 8), 0.05, 30, 1), whole = record(G, prbs(8, 5), 0.05, 30, 2);
+    const IdData data = simulated_data(G, prbs(7, 8), 0.05, 30, 1), whole = simulated_data(G, prbs(8, 5), 0.05, 30, 2);
     IdData other = whole.range(300, whole.sample_count());  // begins in motion, and somewhere
     other.experiments.front().y.array() += 20;
     OrderSelectionOptions options;
@@ -122,7 +122,7 @@ TEST(order_selection, an_unstable_model_is_recommended_only_where_all_are) {  //
 }
 
 TEST(order_selection, a_zero_at_the_origin_shows_that_there_is_no_integrator) {  // oracle: the simulated system
-    const IdData data = record(kSecondOrder, prbs(7, 8), 0.05, 30, 1);
+    const IdData data = simulated_data(kSecondOrder, prbs(7, 8), 0.05, 30, 1);
     OrderSelectionOptions options;
     options.estimation.integration = true;
     const OrderSelection selection = select_order(data, order_grid({2, 2}, {0, 1}, {0.0}), options);
@@ -135,7 +135,8 @@ TEST(order_selection, a_second_record_with_an_offset_is_evaluated_as_the_estimat
     const Vector period = prbs(8, 5);
     Vector periods(2 * period.size());
     periods << period, period;
-    const IdData one = record(kSecondOrder, prbs(7, 8), 0.05, 20, 1), two = record(kSecondOrder, periods, 0.05, 20, 2);
+    const IdData one = simulated_data(kSecondOrder, prbs(7, 8), 0.05, 20, 1),
+                 two = simulated_data(kSecondOrder, periods, 0.05, 20, 2);
     const auto lifted = [](IdData data, double inputs, double outputs) {
         data.experiments.front().u.array() += inputs;
         data.experiments.front().y.array() += outputs;
@@ -161,8 +162,8 @@ TEST(order_selection, a_second_record_with_an_offset_is_evaluated_as_the_estimat
 }
 
 TEST(order_selection, a_step_at_the_first_sample_serves_as_second_record) {  // oracle: the noise
-    const IdData data = record(kSecondOrder, prbs(7, 8), 0.05, 20, 1);
-    IdData step = record(kSecondOrder, Vector::Ones(400), 0.05, 20, 2);
+    const IdData data = simulated_data(kSecondOrder, prbs(7, 8), 0.05, 20, 1);
+    IdData step = simulated_data(kSecondOrder, Vector::Ones(400), 0.05, 20, 2);
     step.experiments.front().y.array() += 7;
     OrderSelectionOptions options;
     options.validation = &step;
@@ -173,8 +174,8 @@ TEST(order_selection, a_step_at_the_first_sample_serves_as_second_record) {  // 
 TEST(order_selection,
      an_unstable_model_that_overflows_has_the_worst_of_validation_fits) {  // oracle: exp(1270) overflows
     const TransferFunction unstable(Vector{{1.0}}, Vector{{1.0, -1.0}});
-    const IdData data = record(unstable, prbs(5, 4).head(100), 0.05, 40, 1);
-    const IdData other = record(kSecondOrder, prbs(7, 200), 0.05, 20, 2);
+    const IdData data = simulated_data(unstable, prbs(5, 4).head(100), 0.05, 40, 1);
+    const IdData other = simulated_data(kSecondOrder, prbs(7, 200), 0.05, 20, 2);
     OrderSelectionOptions options;
     options.validation = &other;
     options.estimation.initial_state = InitialState::kEstimate;
@@ -184,13 +185,13 @@ TEST(order_selection,
 }
 
 TEST(order_selection, finds_the_delay_among_several) {  // oracle: the simulated system
-    const IdData data = record(kSecondOrder.with_delay(0.2), prbs(7, 8), 0.05, 20, 1);
+    const IdData data = simulated_data(kSecondOrder.with_delay(0.2), prbs(7, 8), 0.05, 20, 1);
     const OrderSelection selection = select_order(data, order_grid({2, 2}, {0, 0}, {0.0, 0.1, 0.2, 0.3}));
     EXPECT_EQ(chosen(selection).delay, 0.2);
 }
 
 TEST(order_selection, measures_are_those_of_their_definitions) {  // oracle: fit_measures of the simulated model
-    const IdData data = record(kSecondOrder, prbs(7, 8), 0.05, 10, 1);
+    const IdData data = simulated_data(kSecondOrder, prbs(7, 8), 0.05, 10, 1);
     const OrderSelection selection = select_order(data, order_grid({2, 2}, {0, 0}, {0.0}));
     const OrderCandidate& candidate = selection.candidates.front();
     const Vector y = data.experiments[0].y.col(0);
@@ -205,7 +206,7 @@ TEST(order_selection, measures_are_those_of_their_definitions) {  // oracle: fit
 }
 
 TEST(order_selection, superfluous_poles_and_zeros_are_pointed_out) {  // oracle: the system has no third pole
-    const IdData data = record(kSecondOrder, prbs(7, 8), 0.05, 20, 1);
+    const IdData data = simulated_data(kSecondOrder, prbs(7, 8), 0.05, 20, 1);
     const OrderSelection selection = select_order(data, order_grid({4, 4}, {2, 2}, {0.0}));
     EXPECT_FALSE(selection.candidates.front().sound());
     EXPECT_THAT(message_text(choose_order(selection).explanation), HasSubstr("No structure yields a reliable model"));
@@ -213,7 +214,7 @@ TEST(order_selection, superfluous_poles_and_zeros_are_pointed_out) {  // oracle:
 
 TEST(order_selection, structures_on_which_srivc_does_not_settle_come_as_close_as_those_inside_them) {
     // Oracle: five poles hold four, so the smallest loss with five is not above the smallest with four.
-    const IdData data = record(kRaoGarnier, prbs(10, 7), 0.01, 10, 1);
+    const IdData data = simulated_data(kRaoGarnier, prbs(10, 7), 0.01, 10, 1);
     const OrderSelection selection = select_order(data, order_grid({4, 5}, {1, 1}, {0.0}));
     EXPECT_LT(selection.candidates[1].estimate.loss, 1.001 * selection.candidates[0].estimate.loss);
 }
@@ -227,7 +228,7 @@ TEST(order_selection, exact_records_need_no_more_than_the_system_has) {  // orac
 }
 
 TEST(order_selection, same_numbers_for_any_number_of_threads) {  // oracle: one thread, bit for bit
-    const IdData data = record(kSecondOrder, prbs(7, 8), 0.05, 10, 1);
+    const IdData data = simulated_data(kSecondOrder, prbs(7, 8), 0.05, 10, 1);
     OrderSelectionOptions options;
     options.threads = 1;
     const OrderSelection one = select_order(data, order_grid({1, 3}, {0, 2}, {0.0}), options);
@@ -257,7 +258,7 @@ TEST(order_selection, richer_structures_of_the_grid_never_fit_worse) {
 }
 
 TEST(order_selection, other_criteria_take_the_best_value) {  // oracle: the definition
-    const IdData data = record(kSecondOrder, prbs(7, 8), 0.05, 10, 1);
+    const IdData data = simulated_data(kSecondOrder, prbs(7, 8), 0.05, 10, 1);
     const OrderSelection selection = select_order(data, order_grid({1, 4}, {0, 2}, {0.0}));
     const OrderCandidate best = chosen(selection, OrderCriterion::kYic);
     for (const OrderCandidate& candidate : selection.candidates) EXPECT_LE(best.yic, candidate.yic);
@@ -294,7 +295,7 @@ TEST(order_selection, constant_in_the_record_leads_to_the_same_structure) {  // 
 }
 
 TEST(order_selection, failures_are_kept_and_reported) {
-    const IdData data = record(kSecondOrder, prbs(7, 8), 0.05, 10, 1);
+    const IdData data = simulated_data(kSecondOrder, prbs(7, 8), 0.05, 10, 1);
     OrderSelectionOptions options;
     options.estimation.lambda = -1;
     EXPECT_THAT(thrown_message([&] {

@@ -24,7 +24,7 @@ Vector ar1(Index N, double pole, std::uint32_t seed) {
     return e;
 }
 
-IdData record(const Vector& y, const Vector& u) {
+IdData simulated_data(const Vector& y, const Vector& u) {
     return IdData(Matrix(y), Matrix(u), kTs);
 }
 
@@ -35,7 +35,7 @@ ResidualTests plain_tests(const IdData& data, const TransferFunction& G, const R
 TEST(residual_tests, correlations_equal_their_definition) {  // oracle: the definition
     const Vector u = prbs(6, 3), N_e = ar1(u.size(), 0.6, 2);
     const Vector y = lsim(kG, u, kTs) + N_e;
-    const auto output = plain_tests(record(y, u), kG).outputs[0];
+    const auto output = plain_tests(simulated_data(y, u), kG).outputs[0];
     const Vector e = N_e.array() - N_e.mean(), v = u.array() - u.mean();
     const Index N = u.size();
     for (Index lag = 0; lag <= 25; ++lag) {
@@ -50,7 +50,7 @@ TEST(residual_tests, correlations_equal_their_definition) {  // oracle: the defi
 
 TEST(residual_tests, white_noise_on_the_true_model_passes) {  // oracle: how the data were made
     const Vector u = prbs(7, 8), y = lsim(kG, u, kTs) + 0.1 * RandomStream(1).normal(u.size());
-    const auto tests = plain_tests(record(y, u), kG);
+    const auto tests = plain_tests(simulated_data(y, u), kG);
     EXPECT_TRUE(tests.outputs[0].whiteness.white);
     EXPECT_TRUE(tests.outputs[0].inputs[0].independent);
     EXPECT_TRUE(tests.outputs[0].inputs[0].without_feedback);
@@ -61,12 +61,12 @@ TEST(residual_tests, white_noise_on_the_true_model_passes) {  // oracle: how the
 
 TEST(residual_tests, colored_noise_on_the_true_model_is_distinguished_from_missing_dynamics) {
     const Vector u = prbs(7, 8), y = lsim(kG, u, kTs) + 0.05 * ar1(u.size(), 0.9, 3);
-    const auto colored = plain_tests(record(y, u), kG);
+    const auto colored = plain_tests(simulated_data(y, u), kG);
     EXPECT_FALSE(colored.outputs[0].whiteness.white);
     EXPECT_TRUE(colored.outputs[0].inputs[0].independent);
     EXPECT_THAT(message_text(colored.verdict), HasSubstr("the dynamics. The disturbance is colored:"));
     const TransferFunction poor(Vector{{2.0 / 3}}, Vector{{1.0, 1.0}});
-    const auto missing = plain_tests(record(y, u), poor);
+    const auto missing = plain_tests(simulated_data(y, u), poor);
     EXPECT_FALSE(missing.outputs[0].inputs[0].independent);
     EXPECT_THAT(message_text(missing.verdict), HasSubstr("u1 is correlated with the residuals"));
     EXPECT_THAT(message_text(missing.verdict), HasSubstr("The model does not describe all dynamics"));
@@ -78,7 +78,7 @@ TEST(residual_tests, known_causes_are_named) {
     const auto verdict_on = [](const Vector& input, const Vector& y, const TransferFunction& G,
                                const ModelDoubts& doubts) {
         const std::string text = message_text(
-            residual_tests(record(y, input), {G}, {InitialState::kZero, Offset::kNone}, {}, doubts).verdict);
+            residual_tests(simulated_data(y, input), {G}, {InitialState::kZero, Offset::kNone}, {}, doubts).verdict);
         EXPECT_EQ(text.find("The model does not describe all dynamics"), std::string::npos) << text;
         return text;
     };
@@ -100,11 +100,12 @@ TEST(residual_tests, known_causes_are_named) {
 
 TEST(residual_tests, tests_do_not_make_poor_models_good) {  // oracle: how the data were made
     const Vector u = prbs(7, 8), e = RandomStream(1).normal(u.size());
-    const auto poor = plain_tests(record(0.1 * lsim(kG, u, kTs) + e, u), TransferFunction(0.1 * kG.num(), kG.den()));
+    const auto poor =
+        plain_tests(simulated_data(0.1 * lsim(kG, u, kTs) + e, u), TransferFunction(0.1 * kG.num(), kG.den()));
     EXPECT_TRUE(poor.outputs[0].whiteness.white && poor.outputs[0].inputs[0].independent);
     EXPECT_THAT(message_text(poor.verdict), HasSubstr("The model explains little of the output (fit "));
     const TransferFunction unstable(Vector{{2.0}}, Vector{{1.0, 4.0, -0.004}});  // a pole at 0.001
-    const auto explodes = plain_tests(record(lsim(unstable, u, kTs) + 0.01 * e, u), unstable);
+    const auto explodes = plain_tests(simulated_data(lsim(unstable, u, kTs) + 0.01 * e, u), unstable);
     EXPECT_TRUE(explodes.outputs[0].whiteness.white && explodes.outputs[0].inputs[0].independent);
     EXPECT_THAT(message_text(explodes.verdict), HasSubstr("The model is unstable. Do not use it"));
     for (const ResidualTests* tests : {&poor, &explodes})
@@ -120,7 +121,7 @@ TEST(residual_tests, feedback_shows_at_negative_lags) {  // oracle: how the data
         u[k] = r[k] + (k > 0 ? 0.8 * y[k - 1] : 0);
     }
     const TransferFunction none(Vector{{0.0}}, Vector{{1.0, 1.0}});
-    const auto tests = plain_tests(record(y, u), none);
+    const auto tests = plain_tests(simulated_data(y, u), none);
     EXPECT_TRUE(tests.outputs[0].inputs[0].independent);
     EXPECT_FALSE(tests.outputs[0].inputs[0].without_feedback);
     EXPECT_THAT(message_text(tests.verdict), HasSubstr("affect the input through feedback"));
@@ -131,7 +132,7 @@ TEST(residual_tests, feedback_shows_at_negative_lags) {  // oracle: how the data
 
 TEST(residual_tests, experiments_count_together) {  // oracle: second route, sums over the parts
     const Vector u = prbs(6, 5), y = lsim(kG, u, kTs) + 0.1 * RandomStream(9).normal(u.size());
-    const IdData whole = record(y, u);
+    const IdData whole = simulated_data(y, u);
     const IdData parts = IdData::merge({whole.range(1, 150), whole.range(151, 315)});
     const std::vector<Matrix> simulated = {Matrix(lsim(kG, u, kTs).head(150)), Matrix(lsim(kG, u, kTs).tail(165))};
     const auto output = residual_tests(parts, simulated).outputs[0];
@@ -161,17 +162,18 @@ TEST(residual_tests, channels_are_tested_pair_by_pair) {  // oracle: how the dat
 
 TEST(residual_tests, says_when_there_is_nothing_to_test) {
     const Vector u = prbs(6, 3);
-    const auto exact = plain_tests(record(lsim(kG, u, kTs), u), kG);
+    const auto exact = plain_tests(simulated_data(lsim(kG, u, kTs), u), kG);
     EXPECT_TRUE(exact.outputs[0].exact);
     EXPECT_THAT(message_text(exact.verdict), HasSubstr("rounding error"));
     const Vector flat = Vector::Ones(100), y = lsim(kG, flat, kTs) + 0.1 * RandomStream(1).normal(100);
-    EXPECT_THAT(message_text(plain_tests(record(y, flat), kG).verdict), HasSubstr("u1 never changes"));
+    EXPECT_THAT(message_text(plain_tests(simulated_data(y, flat), kG).verdict), HasSubstr("u1 never changes"));
     const Vector drift = lsim(kG, flat, kTs) + 0.1 * ar1(100, 0.9, 1);
-    EXPECT_THAT(message_text(plain_tests(record(drift, flat), kG).verdict), HasSubstr(", cannot distinguish them"));
+    EXPECT_THAT(message_text(plain_tests(simulated_data(drift, flat), kG).verdict),
+                HasSubstr(", cannot distinguish them"));
 }
 
 TEST(residual_tests, refuses_short_records_and_wrong_sizes) {
-    const IdData data = record(RandomStream(1).normal(40), RandomStream(2).normal(40));
+    const IdData data = simulated_data(RandomStream(1).normal(40), RandomStream(2).normal(40));
     EXPECT_THROW(plain_tests(data, kG), InvalidArgument);
     EXPECT_NO_THROW(plain_tests(data, kG, {10, 0.99}));
     EXPECT_THROW(plain_tests(data, kG, {0, 0.99}), InvalidArgument);

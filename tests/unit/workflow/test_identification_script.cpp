@@ -22,7 +22,7 @@ using testing::Not;
 
 /// Data of 2/(s^2 + 4s + 3) (x, with a delay of 0.33 s in late) and (s + 2)/(s^2 + 0.8s + 4) (theta), in files that
 /// state their sampling in different ways.
-constexpr const char* kRecords = R"lua(
+constexpr const char* kDataSets = R"lua(
 local u, Ts = prbs(6, 8), 0.05
 local t = linspace(0, (#u - 1)*Ts, #u)
 local x, theta = lsim(tf({2}, {1, 4, 3}), u, Ts), lsim(tf({1, 2}, {1, 0.8, 4}), u, Ts)
@@ -50,7 +50,7 @@ class identification_script : public testing::Test {
   protected:
     static void SetUpTestSuite() {
         files_ = new WorkFolder;
-        const auto made = files_->run(kRecords).record;
+        const auto made = files_->run(kDataSets).record;
         ASSERT_FALSE(made.error) << made.error->text();
         std::istringstream lines(files_->read("stated.csv"));
         std::string holes;

@@ -289,7 +289,7 @@ class Approximation {
                         OptionName{"transient"}, options_.transient + 1));
     }
 
-    void warn_of_record() {
+    void warn_about_data() {
         if (rest_ > 0)
             result_.warnings.push_back(
                 Message("The data do not contain a whole number of periods: the first {} are omitted.",
@@ -309,7 +309,7 @@ class Approximation {
 
     void describe() {
         warn_of_transient();
-        warn_of_record();
+        warn_about_data();
         std::vector<Message> all = {Message("Best linear approximation at {} from {} of {}.",
                                             plural(result_.w.size(), "{} frequency", "{} frequencies"),
                                             plural(std::ssize(all_), "{} realization", "{} realizations"),

@@ -86,9 +86,9 @@ SpectralEstimate etfe(const IdData& data, const EtfeOptions& options) {
             "etfe: the data must have one experiment, but they have {}; select one with data:experiment(k), or use "
             "spa, which combines experiments",
             data.experiments.size());
-    const Experiment record =
+    const Experiment data_set =
         nonparametric_data("etfe", data, kFewestSamplesOfEtfe, options.remove_mean).experiments.front();
-    const ComplexVector U = fourier_transform(record.u.col(0)), Y = fourier_transform(record.y.col(0));
+    const ComplexVector U = fourier_transform(data_set.u.col(0)), Y = fourier_transform(data_set.y.col(0));
     const Index N = U.size(), lines = N / 2;
     if (2 * options.smooth + 1 > lines)
         throw InvalidArgument(

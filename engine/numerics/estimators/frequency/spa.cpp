@@ -108,17 +108,17 @@ void SpaOptions::validate() const {
 
 SpectralEstimate spa(const IdData& data, const SpaOptions& options) {
     options.validate();
-    const IdData record = nonparametric_data("spa", data, kFewestSamplesOfSpa, options.remove_mean);
-    Index shortest = record.sample_count();
-    for (const Experiment& experiment : record.experiments) shortest = std::min(shortest, experiment.y.rows());
+    const IdData data_set = nonparametric_data("spa", data, kFewestSamplesOfSpa, options.remove_mean);
+    Index shortest = data_set.sample_count();
+    for (const Experiment& experiment : data_set.experiments) shortest = std::min(shortest, experiment.y.rows());
     const Index M = window_of(options, shortest);
-    const Covariances R = covariances_of(record, M);
+    const Covariances R = covariances_of(data_set, M);
     SpectralEstimate estimate;
     estimate.w = frequencies_of(options, M, data.Ts);
     const Index count = estimate.w.size();
     estimate.response.resize(count), estimate.std.resize(count);
     estimate.coherence.resize(count), estimate.noise_spectrum.resize(count);
-    const double averages = static_cast<double>(record.sample_count()) / (0.75 * static_cast<double>(M));
+    const double averages = static_cast<double>(data_set.sample_count()) / (0.75 * static_cast<double>(M));
     Vector input(count);
     for (Index i = 0; i < count; ++i) input[i] = transform_at(R.u, estimate.w[i] * data.Ts).real();
     const double most = input.cwiseAbs().maxCoeff(), floor = kLeastInput * most;

@@ -25,15 +25,15 @@ struct Scale {
 };
 
 /// z(first) .. z(first + count - 1) as columns, sample d - 1 being the first that has a snapshot.
-Matrix snapshots(const Experiment& record, const Scale& scale, Index d, Index first, Index count) {
+Matrix snapshots(const Experiment& data_set, const Scale& scale, Index d, Index first, Index count) {
     const Index ny = scale.y.size(), nu = scale.u.size();
     Matrix Z(d * ny + (d - 1) * nu, count);
     for (Index i = 0; i < d; ++i)
         Z.middleRows(i * ny, ny) =
-            scale.y.cwiseInverse().asDiagonal() * record.y.middleRows(first - i, count).transpose();
+            scale.y.cwiseInverse().asDiagonal() * data_set.y.middleRows(first - i, count).transpose();
     for (Index i = 1; i < d; ++i)
         Z.middleRows(d * ny + (i - 1) * nu, nu) =
-            scale.u.cwiseInverse().asDiagonal() * record.u.middleRows(first - i, count).transpose();
+            scale.u.cwiseInverse().asDiagonal() * data_set.u.middleRows(first - i, count).transpose();
     return Z;
 }
 
@@ -45,19 +45,19 @@ struct Snapshots {
 Snapshots neighboring_snapshots(const IdData& data, const Scale& scale, Index d) {
     const Index rows = d * scale.y.size() + (d - 1) * scale.u.size(), nu = scale.u.size();
     Index columns = 0, at = 0;
-    for (const Experiment& record : data.experiments) columns += std::max<Index>(0, record.y.rows() - d);
+    for (const Experiment& data_set : data.experiments) columns += std::max<Index>(0, data_set.y.rows() - d);
     if (columns <= rows + nu)
         throw InvalidArgument(
             "dmdc: more than {} snapshots are required, but the data have only {}. Use more data, or fewer delays",
             rows + nu, columns);
     Snapshots pairs{Matrix(rows + nu, columns), Matrix(rows, columns)};
-    for (const Experiment& record : data.experiments) {
-        const Index count = record.y.rows() - d;
+    for (const Experiment& data_set : data.experiments) {
+        const Index count = data_set.y.rows() - d;
         if (count <= 0) continue;
-        pairs.now.topRows(rows).middleCols(at, count) = snapshots(record, scale, d, d - 1, count);
+        pairs.now.topRows(rows).middleCols(at, count) = snapshots(data_set, scale, d, d - 1, count);
         pairs.now.bottomRows(nu).middleCols(at, count) =
-            scale.u.cwiseInverse().asDiagonal() * record.u.middleRows(d - 1, count).transpose();
-        pairs.next.middleCols(at, count) = snapshots(record, scale, d, d, count);
+            scale.u.cwiseInverse().asDiagonal() * data_set.u.middleRows(d - 1, count).transpose();
+        pairs.next.middleCols(at, count) = snapshots(data_set, scale, d, d, count);
         at += count;
     }
     return pairs;
@@ -100,12 +100,12 @@ void measure_fit(DmdcFit& found, const IdData& data, const Scale& scale, const M
     const Index d = found.delays, ny = data.output_count();
     Vector errors = Vector::Zero(ny);
     Index count = 0;
-    for (const Experiment& record : data.experiments) {
-        if (record.y.rows() < d) continue;
-        Vector x = U.transpose() * snapshots(record, scale, d, d - 1, 1);
-        for (Index k = d - 1; k < record.y.rows(); ++k, ++count) {
-            errors += (record.y.row(k).transpose() - system.C * x).cwiseAbs2();
-            x = system.A * x + system.B * record.u.row(k).transpose();
+    for (const Experiment& data_set : data.experiments) {
+        if (data_set.y.rows() < d) continue;
+        Vector x = U.transpose() * snapshots(data_set, scale, d, d - 1, 1);
+        for (Index k = d - 1; k < data_set.y.rows(); ++k, ++count) {
+            errors += (data_set.y.row(k).transpose() - system.C * x).cwiseAbs2();
+            x = system.A * x + system.B * data_set.u.row(k).transpose();
         }
     }
     found.fit.loss = errors.sum() / static_cast<double>(count * ny);

@@ -217,8 +217,8 @@ FreeRun NarxModel::free_run(const IdData& data, std::size_t experiment, const Ve
                 ? Message("narx: the sampling time of the model is {} s, but the sampling time of the data is {} s",
                           Ts_, data.Ts)
                 : Message("narx: the sampling time of the model is {} s, but the data are irregularly sampled", Ts_));
-    const Experiment& record = data.experiments[experiment];
-    const Index N = record.u.rows() > 0 ? record.u.rows() : record.y.rows(), first = lags_.first();
+    const Experiment& data_set = data.experiments[experiment];
+    const Index N = data_set.u.rows() > 0 ? data_set.u.rows() : data_set.y.rows(), first = lags_.first();
     if (N <= first)
         throw InvalidArgument("narx: the simulation starts after {}, but the data have only {}",
                               plural(first, "{} sample", "{} samples"), N);
@@ -231,8 +231,8 @@ FreeRun NarxModel::free_run(const IdData& data, std::size_t experiment, const Ve
     auto y = run.output.col(0);
     if (x0.size() > 0) {
         y.head(first) = x0;
-    } else if (record.y.cols() > 0) {
-        y.head(first) = record.y.col(0).head(first);
+    } else if (data_set.y.cols() > 0) {
+        y.head(first) = data_set.y.col(0).head(first);
     } else {
         y.head(first).setZero();
     }
@@ -241,7 +241,7 @@ FreeRun NarxModel::free_run(const IdData& data, std::size_t experiment, const Ve
         Index place = 0;
         for (int lag = 1; lag <= lags_.na; ++lag) z[place++] = y[k - lag];
         for (std::size_t j = 0; j < lags_.nb.size(); ++j)
-            for (int i = 0; i < lags_.nb[j]; ++i) z[place++] = record.u(k - lags_.nk[j] - i, static_cast<Index>(j));
+            for (int i = 0; i < lags_.nb[j]; ++i) z[place++] = data_set.u(k - lags_.nk[j] - i, static_cast<Index>(j));
         double next = 0;
         for (Index i = 0; i < theta_.size(); ++i)
             next += theta_[i] * monomials_.value(terms_[static_cast<std::size_t>(i)], z);

@@ -190,7 +190,7 @@ Vector SindyModel::rate(const VectorView& x, const VectorView& u) const {
 
 FreeRun SindyModel::free_run(const IdData& data, std::size_t experiment, const VectorView& x0) const {
     check_channels("sindy", *this, data);
-    const Experiment& record = data.experiments[experiment];
+    const Experiment& data_set = data.experiments[experiment];
     const Vector t = data.time(experiment);
     const Index N = t.size(), n = output_count();
     if (x0.size() != 0 && x0.size() != n)
@@ -200,10 +200,10 @@ FreeRun SindyModel::free_run(const IdData& data, std::size_t experiment, const V
     OdeState x = OdeState::Zero(n);
     if (x0.size() > 0)
         x = x0;
-    else if (record.y.cols() > 0)
-        x = record.y.row(0).transpose();
+    else if (data_set.y.cols() > 0)
+        x = data_set.y.row(0).transpose();
     run.output.row(0) = x.transpose();
-    Vector u = record.u.row(0).transpose();
+    Vector u = data_set.u.row(0).transpose();
     Index k = 0;
     bool broken = false;  // the library itself
     OdeSolver solver(
@@ -212,7 +212,7 @@ FreeRun SindyModel::free_run(const IdData& data, std::size_t experiment, const V
                 return OdeState::Constant(n, std::numeric_limits<double>::max());
             if (data.hold == Hold::kFoh && u.size() > 0) {
                 const double share = (time - t[k]) / (t[k + 1] - t[k]);
-                u = ((1 - share) * record.u.row(k) + share * record.u.row(k + 1)).transpose();
+                u = ((1 - share) * data_set.u.row(k) + share * data_set.u.row(k + 1)).transpose();
             }
             broken = true;
             const Vector rates = rate(state, u);
@@ -221,7 +221,7 @@ FreeRun SindyModel::free_run(const IdData& data, std::size_t experiment, const V
         },
         {1e-9, 1e-9 * largest_.minCoeff(), data.mean_step() / 10});
     for (; k + 1 < N; ++k) {
-        u = record.u.row(k).transpose();
+        u = data_set.u.row(k).transpose();
         double time = t[k];
         try {
             solver.advance(time, x, t[k + 1]);

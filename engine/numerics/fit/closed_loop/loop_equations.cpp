@@ -21,12 +21,12 @@ LoopEquations loop_equations(const DenominatorGroup& group, const VectorView& E,
     LoopEquations all{Matrix(N, d), Matrix(N, d), Vector(N), {}};
     Index first = 0;
     for (std::size_t e = 0; e < group.members().size(); ++e) {
-        const RegressionRecord& measured = group.members()[e].record;
+        const RegressionData& measured = group.members()[e].data_set;
         const LoopSignals::Signals& own = signals.experiments[e];
         const Index count = measured.y.size();
         const FilteredEquation equation = filtered_equation(measured, E);
-        const RegressionRecord clean{{own.x.data(), count}, {{own.u.data(), count}}, measured.zeros, measured.delays,
-                                     measured.sampling,     measured.hold,           measured.hold_y};
+        const RegressionData clean{{own.x.data(), count}, {{own.u.data(), count}}, measured.zeros, measured.delays,
+                                   measured.sampling,     measured.hold,           measured.hold_y};
         all.Phi.middleRows(first, count) = equation.Phi;
         all.y.segment(first, count) = equation.y;
         all.Z.middleRows(first, count) = filtered_equation(clean, E).Phi;

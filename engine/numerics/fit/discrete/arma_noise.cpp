@@ -45,9 +45,9 @@ Vector lagged(const Vector& x, Index lag, Index first) {
 /// The one-step prediction of v as a function of [c d], for the output-error search: v minus it is e.
 class Prediction : public OutputErrorModel {
   public:
-    Prediction(const std::vector<Vector>& records, int nc, int nd) : records_(records), nc_(nc), nd_(nd) {
+    Prediction(const std::vector<Vector>& data_sets, int nc, int nd) : data_sets_(data_sets), nc_(nc), nd_(nd) {
         set_free(nc + nd);
-        for (const Vector& record : records) samples_ += record.size();
+        for (const Vector& data_set : data_sets) samples_ += data_set.size();
     }
 
     ArmaNoise noise(const Vector& theta) const {
@@ -64,7 +64,7 @@ class Prediction : public OutputErrorModel {
         const ArmaNoise at = noise(theta);
         if (!inside_unit_circle(at.C) || !inside_unit_circle(at.D)) return;
         Index row = 0;
-        for (const Vector& v : records_) {
+        for (const Vector& v : data_sets_) {
             const Vector e = whitened(at, v);
             output.segment(row, v.size()) = v - e;
             if (sensitivities != nullptr) sensitivities->middleRows(row, v.size()) = noise_sensitivities(at, v, e);
@@ -84,7 +84,7 @@ class Prediction : public OutputErrorModel {
         std::vector<Index> places(static_cast<std::size_t>(d) + 1);
         std::iota(places.begin(), places.end(), Index{-1});
         Index row = 0;
-        for (const Vector& v : records_) {
+        for (const Vector& v : data_sets_) {
             const Matrix all =
                 prediction_error_products({}, {y.segment(row, v.size()), 0, 1, 0}, 0, v.size(), at.C, at.D);
             add_to(sums, all, places);
@@ -94,7 +94,7 @@ class Prediction : public OutputErrorModel {
     }
 
   private:
-    const std::vector<Vector>& records_;
+    const std::vector<Vector>& data_sets_;
     Index nc_, nd_, samples_ = 0;
 };
 
@@ -117,7 +117,7 @@ Matrix regression_factor(const std::vector<Vector>& v, const std::vector<Vector>
 /// Regression of v(k) on its past (`nd` lags) and that of e (`nc` lags), from sample `first` of each experiment on.
 Vector regress(const std::vector<Vector>& v, const std::vector<Vector>& e, Index nc, Index nd, Index first) {
     Index rows = 0;
-    for (const Vector& record : v) rows += std::max<Index>(0, record.size() - first);
+    for (const Vector& data_set : v) rows += std::max<Index>(0, data_set.size() - first);
     if (rows <= nc + nd)
         throw InvalidArgument(
             "the noise model needs longer experiments: {} samples are required after the first {} of each, but only {} "
@@ -133,20 +133,20 @@ Vector regress(const std::vector<Vector>& v, const std::vector<Vector>& e, Index
 }
 
 /// Hannan and Rissanen: e from a long autoregression, then v on the past of both.
-Vector regression_start(const std::vector<Vector>& records, Index nc, Index nd) {
-    std::vector<Vector> e = records;
+Vector regression_start(const std::vector<Vector>& data_sets, Index nc, Index nd) {
+    std::vector<Vector> e = data_sets;
     Index first = nd;
     if (nc > 0) {
         Index longest = 0;
-        for (const Vector& record : records) longest = std::max(longest, record.size());
+        for (const Vector& data_set : data_sets) longest = std::max(longest, data_set.size());
         const Index requested = std::max<Index>(2 * (nc + nd), static_cast<Index>(10 * std::log10(longest)));
         const Index order = std::min(requested, longest / 4);
         ArmaNoise autoregression = ArmaNoise::white(0, static_cast<int>(order));
-        autoregression.D = monic(regress(records, records, 0, order, order));
-        for (std::size_t r = 0; r < records.size(); ++r) e[r] = whitened(autoregression, records[r]);
+        autoregression.D = monic(regress(data_sets, data_sets, 0, order, order));
+        for (std::size_t r = 0; r < data_sets.size(); ++r) e[r] = whitened(autoregression, data_sets[r]);
         first = std::max(nd, order + nc);
     }
-    Vector theta = regress(records, e, nc, nd, first);
+    Vector theta = regress(data_sets, e, nc, nd, first);
     theta.head(nc) = reflect_roots_into_unit_circle(monic(theta.head(nc))).tail(nc);
     theta.tail(nd) = reflect_roots_into_unit_circle(monic(theta.tail(nd))).tail(nd);
     return theta;
@@ -194,30 +194,31 @@ Matrix noise_sensitivities(const ArmaNoise& noise, const VectorView& v, const Ve
     return J;
 }
 
-ArmaNoise estimate_arma(const std::vector<Vector>& records, int nc, int nd, double tolerance, const ArmaNoise* start) {
+ArmaNoise estimate_arma(const std::vector<Vector>& data_sets, int nc, int nd, double tolerance,
+                        const ArmaNoise* start) {
     if (nc < 0 || nd < 0) throw InvalidArgument("nc and nd, the orders of the noise model, must be nonnegative");
     double squares = 0;
     Index used = 0;
     Vector v(0);
-    for (const Vector& record : records) {
-        used += std::max<Index>(0, record.size() - nd);
-        v.conservativeResize(v.size() + record.size());
-        v.tail(record.size()) = record;
+    for (const Vector& data_set : data_sets) {
+        used += std::max<Index>(0, data_set.size() - nd);
+        v.conservativeResize(v.size() + data_set.size());
+        v.tail(data_set.size()) = data_set;
     }
     ArmaNoise noise = ArmaNoise::white(nc, nd);
     Fit solution;
     if (nc + nd > 0) {
-        const Prediction prediction(records, nc, nd);
+        const Prediction prediction(data_sets, nc, nd);
         Vector first(nc + nd);
         if (start != nullptr)
             first << start->C.tail(nc), start->D.tail(nd);
         else
-            first = regression_start(records, nc, nd);
+            first = regression_start(data_sets, nc, nd);
         solution = minimize_output_error(prediction, v, first, FitOptions{}.limited(100, tolerance));
         noise = prediction.noise(solution.theta);
         noise.termination = solution.termination;
     }
-    for (const Vector& record : records) squares += whitened(noise, record).squaredNorm();
+    for (const Vector& data_set : data_sets) squares += whitened(noise, data_set).squaredNorm();
     noise.variance = squares / static_cast<double>(used - nc - nd);
     noise.covariance = Matrix::Zero(nc + nd, nc + nd);
     if (nc + nd > 0 && solution.noise_variance[0] > 0)

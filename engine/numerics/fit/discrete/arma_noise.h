@@ -34,7 +34,7 @@ Vector reflect_roots_into_unit_circle(const Vector& p);
 /// into the unit circle. Damped Gauss-Newton with exact derivatives follows, which keeps all roots inside the unit
 /// circle. Throws InvalidArgument for negative orders or too few samples for a first regression. References: Box and
 /// Jenkins (1976), chapter 7; Ljung (1999), section 10.2.
-ArmaNoise estimate_arma(const std::vector<Vector>& records, int nc, int nd, double tolerance,
+ArmaNoise estimate_arma(const std::vector<Vector>& data_sets, int nc, int nd, double tolerance,
                         const ArmaNoise* start = nullptr);
 
 }  // namespace dynlab::inline numerics

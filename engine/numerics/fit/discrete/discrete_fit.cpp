@@ -98,26 +98,26 @@ Fit fit_discrete_output(const std::string& method, const IdData& data, const Pol
     if (orders.na + orders.nc + orders.nd > 0)
         throw InvalidArgument("{} has only the orders nb, nf and nk: na, nc and nd must be zero", method);
     check_polynomial_data(method, data, orders);
-    const CenteredData record = centered_for(data, options.offset);
-    const std::vector<SampledExperiment> experiments = sampled_experiments(record.data);
+    const CenteredData data_set = centered_for(data, options.offset);
+    const std::vector<SampledExperiment> experiments = sampled_experiments(data_set.data);
     const auto values = [&](const StartCondition& condition) {
         return value_count(DiscreteOutput(orders, condition, experiments));
     };
-    const auto conditions = start_conditions(record.data, options.initial_state, options.offset);
+    const auto conditions = start_conditions(data_set.data, options.initial_state, options.offset);
     check_sample_count(method, data.sample_count(), values(conditions.front()));
     const auto fit_one = [&](const StartCondition& condition) {
-        return fit_condition(DiscreteOutput(orders, condition, experiments), record.data, options, search);
+        return fit_condition(DiscreteOutput(orders, condition, experiments), data_set.data, options, search);
     };
     if (!start_is_open(options)) {
-        Fit best = fit_output_error({method, record.data, conditions, values, fit_one});
-        add_operating_points(best, record.removed);
+        Fit best = fit_output_error({method, data_set.data, conditions, values, fit_one});
+        add_operating_points(best, data_set.removed);
         return best;
     }
     const std::vector<StartCondition> rest{conditions.front()};
-    const Fit plain = fit_output_error({method, record.data, rest, values, fit_one});
+    const Fit plain = fit_output_error({method, data_set.data, rest, values, fit_one});
     if (plain.termination == Termination::kCanceled || !other_discrete_start_promises(data, plain, options))
         return plain;
-    return fit_output_error({method, record.data, conditions, values, [&](const StartCondition& condition) {
+    return fit_output_error({method, data_set.data, conditions, values, [&](const StartCondition& condition) {
                                  return begins_at_rest(condition) ? plain : fit_one(condition);
                              }});
 }

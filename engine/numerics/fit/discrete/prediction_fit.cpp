@@ -66,13 +66,13 @@ double output_power(const IdData& data) {
 ArmaNoise start_noise(const std::vector<Vector>& errors, int nc, int nd, double output_power) {
     double squares = 0;
     Index count = 0;
-    for (const Vector& record : errors) {
-        squares += record.squaredNorm();
-        count += record.size();
+    for (const Vector& data_set : errors) {
+        squares += data_set.squaredNorm();
+        count += data_set.size();
     }
     if (squares <= kPredictionRounding * output_power * static_cast<double>(count)) return ArmaNoise::white(nc, nd);
     std::vector<Vector> beginnings;
-    for (const Vector& record : errors) beginnings.push_back(record.head(std::min(kStartSamples, record.size())));
+    for (const Vector& data_set : errors) beginnings.push_back(data_set.head(std::min(kStartSamples, data_set.size())));
     return estimate_arma(beginnings, nc, nd, 1e-3);
 }
 

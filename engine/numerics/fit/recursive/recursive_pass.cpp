@@ -40,7 +40,7 @@ struct Samples {
 };
 
 Samples samples_of(const RecursiveName& method, const IdData& data, double delay, Hold hold_y) {
-    const Experiment& record = data.experiments.front();
+    const Experiment& data_set = data.experiments.front();
     Index late = 0;
     if (delay > 0) {
         const SplitDelay split = data.regular() ? split_delay(delay, data.Ts) : SplitDelay{0, delay};
@@ -49,7 +49,8 @@ Samples samples_of(const RecursiveName& method, const IdData& data, double delay
                                   delay);
         late = split.samples;
     }
-    return {record.y.col(0), record.u.col(0), record.t, data.Ts, late, data.hold == Hold::kZoh, hold_y == Hold::kZoh};
+    return {data_set.y.col(0),       data_set.u.col(0),   data_set.t, data.Ts, late,
+            data.hold == Hold::kZoh, hold_y == Hold::kZoh};
 }
 
 /// A filter that stays as it is: steps of equal length are worked out once.

@@ -154,13 +154,13 @@ Message summary_of(const BootstrapOptions& options, bool white) {
 }
 
 bool are_white(const RefittedOutput& model, const Vector& errors) {
-    std::vector<Vector> records;
+    std::vector<Vector> data_sets;
     Index row = 0;
     for (const Index length : model.lengths()) {
-        records.emplace_back(errors.segment(row, length));
+        data_sets.emplace_back(errors.segment(row, length));
         row += length;
     }
-    return whiteness_test(records).white;
+    return whiteness_test(data_sets).white;
 }
 
 }  // namespace

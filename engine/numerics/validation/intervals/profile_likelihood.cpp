@@ -142,13 +142,13 @@ Message interval_text(const Profile& profile) {
 
 void warn_of_color(Profile& profile, const RefittedOutput& model, const Fit& base) {
     const Vector errors = model.measured() - model.simulated(base);
-    std::vector<Vector> records;
+    std::vector<Vector> data_sets;
     Index row = 0;
     for (const Index length : model.lengths()) {
-        records.emplace_back(errors.segment(row, length));
+        data_sets.emplace_back(errors.segment(row, length));
         row += length;
     }
-    if (!whiteness_test(records).white)
+    if (!whiteness_test(data_sets).white)
         profile.warnings.push_back(Message("The residuals are not white, so the interval is too narrow."));
 }
 

@@ -40,7 +40,7 @@ class Criterion {
   public:
     Criterion(const IdData& data, const FittedOutput& fitted)
         : transfer_(fitted.process ? transfer_structure(*fitted.process) : fitted.structure, fitted.start, data, 0,
-                    shortest_record(data) / 2,
+                    shortest_experiment(data) / 2,
                     fitted.process ? at_rest(*fitted.process) : TransferOutput::AtRest::kCoefficients) {
         if (fitted.process) process_.emplace(process_output(*fitted.process, transfer_));
         seconds_ = fitted.process ? process_seconds(*fitted.process, transfer_) : transfer_.seconds();

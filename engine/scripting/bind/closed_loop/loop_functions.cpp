@@ -85,7 +85,7 @@ int simulate_loop(Call& call) {
                               "contain it only at the samples. This biases models estimated from them. A controller "
                               "with the sampling time Ts holds u between the samples, so its data are exact.")) +
             "\n");
-    IdData data = ClosedLoop(plant, controller, call.number(4, "Ts"), hold).record(r, noise);
+    IdData data = ClosedLoop(plant, controller, call.number(4, "Ts"), hold).simulate(r, noise);
     const Vector x = data.experiments.front().y.col(0) - noise;
     return give_data(call, std::move(data)) + call.give_vector(x);
 }

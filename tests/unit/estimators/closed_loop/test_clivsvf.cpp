@@ -37,7 +37,7 @@ Matrix regressors(const Vector& x, const Vector& u) {
 
 // oracle: the passes of the definition with stored columns from lsim
 TEST(clivsvf, solves_the_equations_of_its_definition) {
-    const IdData data = loop_record(0.05, 3);
+    const IdData data = loop_data(0.05, 3);
     const Experiment& loop = data.experiments.front();
     const Vector y = loop.y.col(0), u = loop.u.col(0);
     Vector theta = lssvf(data, kPlant, cutoff(3)).theta;
@@ -52,7 +52,7 @@ TEST(clivsvf, solves_the_equations_of_its_definition) {
 }
 
 TEST(clivsvf, finds_the_computing_delay) {  // oracle: how the data were made
-    const IdData data = loop_record(0.05, 3);
+    const IdData data = loop_data(0.05, 3);
     LoopKnowledge known{loop_controller()};
     known.controller->computing_delay = 0;
     known.find_computing_delay = true;
@@ -64,7 +64,7 @@ TEST(clivsvf, finds_the_computing_delay) {  // oracle: how the data were made
 // oracle: definition: doubled data give the same estimate; the standard errors agree except for the window of their
 // covariance, which changes with N
 TEST(clivsvf, experiments_are_joined) {
-    const IdData data = loop_record(0.05, 3);
+    const IdData data = loop_data(0.05, 3);
     const Fit once = clivsvf(data, kPlant, cutoff(3), known_controller());
     const Fit twice = clivsvf(IdData::merge({data, data}), kPlant, cutoff(3), known_controller());
     EXPECT_LT(relative_difference(twice.theta, once.theta), 1e-9);
@@ -73,14 +73,14 @@ TEST(clivsvf, experiments_are_joined) {
 
 TEST(clivsvf, doubts_a_wrong_controller) {  // oracle: the warning
     LoopKnowledge wrong{LoopController{TransferFunction(values({-0.5}), values({1}), kLoopTs), 1}};
-    EXPECT_THAT(message_text(clivsvf(loop_record(0.05, 3), kPlant, cutoff(3), wrong).full_message()),
+    EXPECT_THAT(message_text(clivsvf(loop_data(0.05, 3), kPlant, cutoff(3), wrong).full_message()),
                 HasSubstr("reference minus output explains only"));
 }
 
 TEST(clivsvf, refuses_what_it_cannot_use) {  // oracle: the sentence names method and fault
-    const IdData data = loop_record(0.05, 3);
-    const auto refused = [&](const IdData& record, const LoopKnowledge& known) {
-        return thrown_message([&] { clivsvf(record, kPlant, cutoff(3), known); });
+    const IdData data = loop_data(0.05, 3);
+    const auto refused = [&](const IdData& data_set, const LoopKnowledge& known) {
+        return thrown_message([&] { clivsvf(data_set, kPlant, cutoff(3), known); });
     };
     IdData without = data, constant = data, strange = data;
     without.experiments.front().r.resize(0, 0);

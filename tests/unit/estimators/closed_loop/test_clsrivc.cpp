@@ -28,7 +28,7 @@ LoopKnowledge known_controller() {
 }
 
 TEST(clsrivc, noise_free_records_give_the_plant) {  // oracle: the truth
-    const IdData data = loop_record(0, 1);
+    const IdData data = loop_data(0, 1);
     EXPECT_LT(relative_difference(clsrivc(data, kPlant, exact(), known_controller()).theta, kTruth), 1e-7);
     EXPECT_LT(relative_difference(clsrivc(data, kPlant, exact()).theta, kTruth), 1e-7);
     EXPECT_LT(
@@ -38,14 +38,14 @@ TEST(clsrivc, noise_free_records_give_the_plant) {  // oracle: the truth
 }
 
 TEST(clsrivc, the_direct_route_is_srivc) {  // oracle: srivc
-    const IdData data = loop_record(0.05, 2);
+    const IdData data = loop_data(0.05, 2);
     const Fit direct = clsrivc(data, kPlant, {}, {}, LoopRoute::kDirect);
     EXPECT_EQ(direct.theta, srivc(data, kPlant).theta);
     EXPECT_THAT(message_text(direct.full_message()), HasSubstr("The direct route ignores the controller"));
 }
 
 TEST(clsrivc, errors_do_not_go_with_the_instruments) {  // oracle: residual of the definition, by lsim
-    const IdData data = loop_record(0.05, 2);
+    const IdData data = loop_data(0.05, 2);
     const Experiment& one = data.experiments.front();
     const Fit fit = clsrivc(data, kPlant, exact(), known_controller());
     const TransferFunction G = fit.models.front();
@@ -60,7 +60,7 @@ TEST(clsrivc, errors_do_not_go_with_the_instruments) {  // oracle: residual of t
 }
 
 TEST(clsrivc, the_indirect_route_lies_at_the_least_squares_of_the_loop) {  // oracle: neighbors are no better
-    const IdData data = loop_record(0.05, 2);
+    const IdData data = loop_data(0.05, 2);
     const Experiment& one = data.experiments.front();
     const auto loss = [&](const Vector& theta) {
         const ClosedLoop loop(kPlant.models(theta).front(), loop_controller(), kLoopTs);
@@ -76,7 +76,7 @@ TEST(clsrivc, the_indirect_route_lies_at_the_least_squares_of_the_loop) {  // or
 }
 
 TEST(clsrivc, an_unstable_plant_is_found_in_its_loop) {  // oracle: the truth 2/((s - 1)(s + 4))
-    const IdData data = held_record(0.02, 3);
+    const IdData data = held_input_data(0.02, 3);
     FitOptions options = exact();
     options.lambda = 4;
     for (const LoopRoute route : {LoopRoute::kAuxiliary, LoopRoute::kIndirect}) {
@@ -87,7 +87,7 @@ TEST(clsrivc, an_unstable_plant_is_found_in_its_loop) {  // oracle: the truth 2/
         EXPECT_EQ(fit.termination, Termination::kConverged);
     }
     EXPECT_LT(relative_difference(
-                  clsrivc(held_record(0, 3), kPlant, options, {holding_controller()}, LoopRoute::kIndirect).theta,
+                  clsrivc(held_input_data(0, 3), kPlant, options, {holding_controller()}, LoopRoute::kIndirect).theta,
                   values({3, -4, 2})),
               1e-7);
 }
@@ -95,7 +95,7 @@ TEST(clsrivc, an_unstable_plant_is_found_in_its_loop) {  // oracle: the truth 2/
 TEST(clsrivc, a_controller_in_continuous_time) {  // oracle: the truth, except for interpolation of u
     const Vector r = prbs(7, 10);
     const TransferFunction C(values({4, 4}), values({1, 0}));
-    const IdData data = ClosedLoop(loop_plant(), {C}, 0.02).record(r, 0.01 * RandomStream(3).normal(r.size()));
+    const IdData data = ClosedLoop(loop_plant(), {C}, 0.02).simulate(r, 0.01 * RandomStream(3).normal(r.size()));
     const Fit auxiliary = clsrivc(data, kPlant, {}, {LoopController{C}});
     const Fit indirect = clsrivc(data, kPlant, {}, {LoopController{C}}, LoopRoute::kIndirect);
     EXPECT_LT(relative_difference(auxiliary.theta, kTruth), 0.06) << auxiliary.theta.transpose();
@@ -103,7 +103,7 @@ TEST(clsrivc, a_controller_in_continuous_time) {  // oracle: the truth, except f
 }
 
 TEST(clsrivc, refuses_what_it_cannot_use) {  // oracle: the sentence names method and fault
-    const IdData data = loop_record(0.05, 3);
+    const IdData data = loop_data(0.05, 3);
     EXPECT_THAT(thrown_message([&] { clsrivc(data, kPlant, {}, {}, LoopRoute::kIndirect); }),
                 HasSubstr("needs a known controller"));
     IdData without = data;

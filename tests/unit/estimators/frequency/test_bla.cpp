@@ -24,14 +24,14 @@ constexpr Index kPeriod = 512;
 constexpr double kTs = 0.05;
 const TransferFunction kPlant(Vector{{2.0}}, Vector{{1.0, 1.2, 4.0}});
 
-struct Recording {
+struct Measurement {
     Index realizations = 4, periods = 3, settling = 4;
     double noise = 0, square = 0, cube = 0;
     bool odd = false;
 };
 
 /// Realizations behind one another, each after periods that are not recorded; the nonlinearity acts on the output.
-IdData recorded(const Recording& how) {
+IdData measured_data(const Measurement& how) {
     RandomStream random(5);
     RandomPhaseOptions options;
     options.lines = Vector::LinSpaced(100, 1, 100);
@@ -49,7 +49,7 @@ IdData recorded(const Recording& how) {
     return IdData(Matrix(y), Matrix(u), kTs);
 }
 
-BlaOptions options_of(const Recording& how) {
+BlaOptions options_of(const Measurement& how) {
     BlaOptions options;
     options.period = kPeriod;
     options.realizations = how.realizations;
@@ -62,9 +62,9 @@ double largest_error(const FrequencyData& found) {
 }
 
 TEST(bla, of_a_linear_system_without_noise_is_its_response) {  // oracle: the sampled system
-    Recording how;
+    Measurement how;
     how.settling = 10;
-    const FrequencyData found = bla(recorded(how), options_of(how));
+    const FrequencyData found = bla(measured_data(how), options_of(how));
     ASSERT_EQ(found.w.size(), 100);
     EXPECT_NEAR(found.w[0], 2 * std::numbers::pi / (kPeriod * kTs), 1e-12);
     EXPECT_LT(largest_error(found), 1e-9);
@@ -74,9 +74,9 @@ TEST(bla, of_a_linear_system_without_noise_is_its_response) {  // oracle: the sa
 }
 
 TEST(bla, averages_are_those_of_their_definition) {  // second route: transforms summed sample by sample
-    Recording how;
+    Measurement how;
     how.noise = 0.1, how.cube = 0.2;
-    const IdData data = recorded(how);
+    const IdData data = measured_data(how);
     BlaOptions options = options_of(how);
     options.smooth = 0;
     const FrequencyData found = bla(data, options);
@@ -102,9 +102,9 @@ TEST(bla, averages_are_those_of_their_definition) {  // second route: transforms
 }
 
 TEST(bla, experiments_are_realizations_too) {  // second route: the same data in pieces
-    Recording how;
+    Measurement how;
     how.noise = 0.1;
-    const IdData joined = recorded(how);
+    const IdData joined = measured_data(how);
     std::vector<IdData> parts;
     for (Index m = 0; m < 4; ++m) parts.push_back(joined.range(3 * kPeriod * m + 1, 3 * kPeriod * (m + 1)));
     BlaOptions options = options_of(how);
@@ -116,20 +116,20 @@ TEST(bla, experiments_are_realizations_too) {  // second route: the same data in
 }
 
 TEST(bla, powers_show_at_lines_of_their_kind) {  // oracle: even powers of odd lines lie at even lines
-    Recording how;
+    Measurement how;
     how.odd = true, how.settling = 10;
     how.square = 0.3;
-    const FrequencyData even = bla(recorded(how), options_of(how));
+    const FrequencyData even = bla(measured_data(how), options_of(how));
     EXPECT_GT(even.even.distortion.sum(), 1e4 * std::abs(even.odd.distortion.sum()));
     how.square = 0, how.cube = 0.3;
-    const FrequencyData odd = bla(recorded(how), options_of(how));
+    const FrequencyData odd = bla(measured_data(how), options_of(how));
     EXPECT_GT(odd.odd.distortion.sum(), 1e4 * std::abs(odd.even.distortion.sum()));
 }
 
 TEST(bla, levels_sum_up_to_the_output) {  // oracle: Parseval; no line at zero or at half the sampling frequency matters
-    Recording how;
+    Measurement how;
     how.noise = 0.05, how.cube = 0.1;
-    const IdData data = recorded(how);
+    const IdData data = measured_data(how);
     const FrequencyData found = bla(data, options_of(how));
     const LevelSums sums = level_sums(found);
     Vector mean_periods(4 * kPeriod);
@@ -143,15 +143,15 @@ TEST(bla, levels_sum_up_to_the_output) {  // oracle: Parseval; no line at zero o
 }
 
 TEST(bla, reports_what_is_wrong_with_a_record) {
-    Recording how;
+    Measurement how;
     how.settling = 0, how.noise = 0.001;
-    EXPECT_THAT(texts_of(bla(recorded(how), options_of(how)).warnings), Contains(HasSubstr("`transient` = 1")));
+    EXPECT_THAT(texts_of(bla(measured_data(how), options_of(how)).warnings), Contains(HasSubstr("`transient` = 1")));
     BlaOptions dropped = options_of(how);
     dropped.transient = 1;
-    EXPECT_THAT(texts_of(bla(recorded(how), dropped).warnings), testing::Not(Contains(HasSubstr("`transient`"))));
+    EXPECT_THAT(texts_of(bla(measured_data(how), dropped).warnings), testing::Not(Contains(HasSubstr("`transient`"))));
 
     how = {};
-    const IdData whole = recorded(how);
+    const IdData whole = measured_data(how);
     BlaOptions one = options_of(how);
     one.realizations = 1;
     const FrequencyData cut = bla(whole.range(101, 3 * kPeriod), one);
@@ -171,8 +171,8 @@ TEST(bla, reports_what_is_wrong_with_a_record) {
 }
 
 TEST(bla, refuses_what_it_cannot_use) {
-    Recording how;
-    const IdData data = recorded(how);
+    Measurement how;
+    const IdData data = measured_data(how);
     const auto refusal = [&](const BlaOptions& options) { return thrown_message([&] { bla(data, options); }); };
     BlaOptions options;
     EXPECT_THAT(refusal(options), HasSubstr("the period must be"));
@@ -191,9 +191,9 @@ TEST(bla, refuses_what_it_cannot_use) {
 
 // Oracle: a system without memory answers each repetition alike, whatever it does to the input.
 TEST(bla, refuses_realizations_of_one_input) {
-    Recording how;
+    Measurement how;
     how.realizations = 1, how.periods = 12, how.cube = 0.3, how.noise = 0.02;
-    const IdData repeated = recorded(how);
+    const IdData repeated = measured_data(how);
     BlaOptions options = options_of(how);
     options.realizations = 4;
     EXPECT_THAT(thrown_message([&] { bla(repeated, options); }), HasSubstr("realizations 1 and 2 have the same input"));
@@ -203,7 +203,7 @@ TEST(bla, refuses_realizations_of_one_input) {
     const IdData shifted = IdData::merge({repeated.range(1, 3 * kPeriod), repeated.range(101, 3 * kPeriod + 100)});
     EXPECT_THAT(thrown_message([&] { bla(shifted, options); }), HasSubstr("have the same input"));
     how.realizations = 3, how.periods = 3;
-    const IdData others = recorded(how),
+    const IdData others = measured_data(how),
                  merged = IdData::merge({others.range(1, 3 * kPeriod), others.range(1 + 3 * kPeriod, 6 * kPeriod),
                                          others.range(1, 3 * kPeriod)});
     EXPECT_THAT(thrown_message([&] { bla(merged, options); }), HasSubstr("realizations 1 and 3"));

@@ -24,14 +24,14 @@ Complex truth_at(double w, double Ts) {
     return (kB[0] + kB[1] * q + kB[2] * q * q) / (kF[0] + kF[1] * q + kF[2] * q * q);
 }
 
-IdData record(Index N, double noise, std::uint32_t seed, double Ts = 0.5) {
+IdData simulated_data(Index N, double noise, std::uint32_t seed, double Ts = 0.5) {
     RandomStream random(seed);
     const Vector u = random.normal(N), x = divided_by(kF, weighted_past(kB, u));
     return IdData(Matrix(x + noise * random.normal(N)), Matrix(u), Ts);
 }
 
 TEST(spa, spectra_are_transforms_of_windowed_covariances) {  // oracle: the definition, summed directly
-    const IdData data = record(200, 0.3, 5);
+    const IdData data = simulated_data(200, 0.3, 5);
     const Index M = 12;
     SpaOptions options;
     options.window = M;
@@ -62,7 +62,7 @@ TEST(spa, bands_hold_the_truth_as_often_as_they_say) {  // oracle: statistics ov
     Vector inside = Vector::Zero(6), ratio = Vector::Zero(6);
     const int runs = 200;
     for (int seed = 1; seed <= runs; ++seed) {
-        const SpectralEstimate estimate = spa(record(3000, 0.5, static_cast<std::uint32_t>(seed)), options);
+        const SpectralEstimate estimate = spa(simulated_data(3000, 0.5, static_cast<std::uint32_t>(seed)), options);
         for (Index i = 0; i < 6; ++i) {
             const double error = (estimate.response[i] - truth_at(options.w[i], 0.5)).real();
             inside[i] += std::abs(error) < 1.96 * estimate.std[i];
@@ -82,7 +82,7 @@ TEST(spa, bands_widen_towards_the_ends_of_the_axis) {  // oracle: spread of the 
     options.w = Vector{{0.02, 0.05, end - 0.05, end - 0.02}};
     Vector squares = Vector::Zero(4), stated = Vector::Zero(4);
     for (std::uint32_t seed = 1; seed <= 400; ++seed) {
-        const SpectralEstimate estimate = spa(record(2000, 0.5, seed), options);
+        const SpectralEstimate estimate = spa(simulated_data(2000, 0.5, seed), options);
         for (Index i = 0; i < 4; ++i)
             squares[i] += std::pow((estimate.response[i] - truth_at(options.w[i], 0.5)).real(), 2);
         stated += estimate.std.cwiseAbs2();
@@ -93,7 +93,7 @@ TEST(spa, bands_widen_towards_the_ends_of_the_axis) {  // oracle: spread of the 
 TEST(spa, noise_spectrum_is_that_of_the_noise) {  // oracle: white noise of known variance, statistics
     SpaOptions options;
     options.window = 100;  // long enough to leave no smoothing error
-    const SpectralEstimate estimate = spa(record(20000, 0.5, 3), options);
+    const SpectralEstimate estimate = spa(simulated_data(20000, 0.5, 3), options);
     EXPECT_NEAR(estimate.noise_spectrum.mean(), 0.25, 0.02);
     EXPECT_LT((estimate.noise_spectrum.array() - 0.25).abs().maxCoeff(), 0.08);
 }
@@ -101,22 +101,22 @@ TEST(spa, noise_spectrum_is_that_of_the_noise) {  // oracle: white noise of know
 TEST(spa, converges_to_the_true_response) {  // oracle: the true system, noise-free, long window
     SpaOptions options;
     options.window = 200;
-    const SpectralEstimate estimate = spa(record(50000, 0, 4), options);
+    const SpectralEstimate estimate = spa(simulated_data(50000, 0, 4), options);
     for (Index i = 0; i < estimate.w.size(); ++i)
         EXPECT_LT(std::abs(estimate.response[i] - truth_at(estimate.w[i], 0.5)), 0.02) << estimate.w[i];
     EXPECT_GT(estimate.coherence.minCoeff(), 0.98);
 }
 
 TEST(spa, experiments_are_joined) {  // oracle: coverage shrinks as for data of the joint length
-    const IdData both = IdData::merge({record(1000, 0.5, 1), record(3000, 0.5, 2)});
+    const IdData both = IdData::merge({simulated_data(1000, 0.5, 1), simulated_data(3000, 0.5, 2)});
     SpaOptions options;
     options.window = 30;
-    const SpectralEstimate joint = spa(both, options), single = spa(record(1000, 0.5, 1), options);
+    const SpectralEstimate joint = spa(both, options), single = spa(simulated_data(1000, 0.5, 1), options);
     EXPECT_NEAR((joint.std.array() / single.std.array()).mean(), 0.5, 0.1);
 }
 
 TEST(spa, says_what_it_needs) {
-    const IdData data = record(100, 0.1, 1);
+    const IdData data = simulated_data(100, 0.1, 1);
     const auto message = [&](const IdData& d, SpaOptions options = {}) {
         return thrown_message([&] { spa(d, options); });
     };

@@ -41,7 +41,7 @@ Fit output_error_fit(const IdData& data, InitialState state = InitialState::kZer
 
 TEST(greyest, of_a_linear_model_is_coe) {  // oracle: second route, coe, with its standard errors
     for (const Hold hold : {Hold::kZoh, Hold::kFoh}) {
-        IdData data = course_record(0.2, 3);
+        IdData data = course_system_data(0.2, 3);
         data.hold = hold;
         const Fit expected = output_error_fit(data);
         const GreyFit found = greyest(data, second_order(), tight());
@@ -53,7 +53,7 @@ TEST(greyest, of_a_linear_model_is_coe) {  // oracle: second route, coe, with it
 }
 
 TEST(greyest, by_steps_is_coe_too) {  // oracle: second route; a sine too small to matter keeps it from the exact one
-    const IdData data = course_record(0.2, 3);
+    const IdData data = course_system_data(0.2, 3);
     const GreyModel model =
         grey_model({{"a1", 1, 0}, {"a2", 1, 0}, {"b", 1}}, {"y", "dy"}, [](const Variables& v) -> std::vector<Term> {
             return {v.x[1], v.p[2] * v.u - v.p[0] * v.x[1] - v.p[1] * v.x[0] + 1e-25 * sine(v.x[0])};
@@ -65,7 +65,7 @@ TEST(greyest, by_steps_is_coe_too) {  // oracle: second route; a sine too small 
 }
 
 TEST(greyest, with_an_estimated_initial_state_is_coe) {  // oracle: second route
-    IdData data = course_record(0.2, 5).range(301, 1200);
+    IdData data = course_system_data(0.2, 5).range(301, 1200);
     const Fit expected = output_error_fit(data, InitialState::kEstimate);
     GreyOptions options = tight();
     options.initial_state = GreyStart::kEstimate;
@@ -198,7 +198,7 @@ TEST(greyest, estimates_the_initial_state_of_other_records) {  // oracle: the si
 }
 
 /// Position from the first sample on, and angle.
-IdData crane_data(const CraneRecord& crane) {
+IdData crane_data(const CraneData& crane) {
     Matrix y(crane.u.size(), 2);
     y << crane.x.array() - crane.x[0], crane.theta;
     return IdData(y, Matrix(crane.u), 0.02);
@@ -207,9 +207,9 @@ IdData crane_data(const CraneRecord& crane) {
 // Oracle: the simulated plant, whose friction, belt, motor and sensors are richer than the model's seven parameters.
 // Its best linear model reaches 96.4 % of the angle on the validation data.
 TEST(greyest, explains_the_crane_better_than_any_linear_model) {
-    const std::vector<CraneRecord> records = simulate_crane({}, {}, 1);
-    const GreyFit found = greyest(crane_data(records[0]), crane_model());
-    const Vector validation = compare_grey(crane_data(records[1]), found, GreyStart::kModel).fit_percent;
+    const std::vector<CraneData> data_sets = simulate_crane({}, {}, 1);
+    const GreyFit found = greyest(crane_data(data_sets[0]), crane_model());
+    const Vector validation = compare_grey(crane_data(data_sets[1]), found, GreyStart::kModel).fit_percent;
     EXPECT_GE(validation[0], 99.7) << message_text(found.fit.full_message());
     EXPECT_GE(validation[1], 98.0);
     EXPECT_NEAR(found.fit.theta[4], (1e-3 + 0.23 * 0.36 * 0.36) / (0.23 * 0.36), 1e-3);  // the equivalent length, m

@@ -22,7 +22,7 @@ GreyModel lag_of_second_order() {
 }
 
 TEST(missed_initial_state, is_reported_for_a_record_that_begins_in_a_movement) {
-    const IdData cut = course_record(0.2, 5).range(301, 900);
+    const IdData cut = course_system_data(0.2, 5).range(301, 900);
     const GreyFit from_rest = greyest(cut, lag_of_second_order());
     GreyOptions options;
     options.initial_state = GreyStart::kEstimate;
@@ -38,7 +38,7 @@ TEST(missed_initial_state, is_reported_for_a_record_that_begins_in_a_movement) {
 }
 
 TEST(missed_initial_state, is_not_reported_for_a_record_from_rest) {
-    const IdData data = course_record(0.2, 5);
+    const IdData data = course_system_data(0.2, 5);
     EXPECT_FALSE(missed_initial_state(data, greyest(data, lag_of_second_order()), Vector::Ones(1)).has_value());
 }
 

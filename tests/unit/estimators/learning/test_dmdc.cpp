@@ -20,7 +20,7 @@ StateSpace system_of_three() {
                       Matrix{{1, 0, 0}, {0, 1, 1}}, Matrix::Zero(2, 2), 0.1);
 }
 
-IdData record(const StateSpace& system, Index N, double noise, std::uint32_t seed) {
+IdData simulated_data(const StateSpace& system, Index N, double noise, std::uint32_t seed) {
     RandomStream chance(seed);
     Matrix u(N, system.B.cols());
     for (auto column : u.colwise()) column = chance.normal(N);
@@ -42,7 +42,7 @@ TEST(dmdc, is_exact_for_all_states_measured) {  // oracle: the system put in
     StateSpace system = system_of_three();
     system.C = Matrix::Identity(3, 3);
     system.D = Matrix::Zero(3, 2);
-    const DmdcFit found = dmdc(record(system, 200, 0, 1));
+    const DmdcFit found = dmdc(simulated_data(system, 200, 0, 1));
     EXPECT_EQ(found.rank, 3);
     EXPECT_LT(difference(found.system, system), 1e-10);
     EXPECT_GT(found.fit.fit_percent.minCoeff(), 99.99999);
@@ -51,14 +51,14 @@ TEST(dmdc, is_exact_for_all_states_measured) {  // oracle: the system put in
 TEST(dmdc, is_exact_with_as_many_delays_as_states) {  // oracle: the system put in
     const StateSpace two = system_of_three();
     const StateSpace system(two.A, two.B.leftCols(1), two.C.topRows(1), Matrix::Zero(1, 1), 0.1);
-    const DmdcFit found = dmdc(record(system, 300, 0, 2), {0, 3});
+    const DmdcFit found = dmdc(simulated_data(system, 300, 0, 2), {0, 3});
     EXPECT_LT(difference(found.system, system), 1e-8);
     ASSERT_EQ(found.fit.models.size(), 1u);
     EXPECT_NEAR(found.fit.models[0].dc_gain(), to_transfer_function(system).dc_gain(), 1e-8);
 }
 
 TEST(dmdc, of_a_full_rank_is_least_squares) {  // oracle: normal equations of y(k+1) on y(k), u(k)
-    const IdData data = record(system_of_three(), 300, 0.1, 3);
+    const IdData data = simulated_data(system_of_three(), 300, 0.1, 3);
     const Experiment& one = data.experiments[0];
     Matrix Phi(299, 4);
     Phi << one.y.topRows(299), one.u.topRows(299);
@@ -70,7 +70,7 @@ TEST(dmdc, of_a_full_rank_is_least_squares) {  // oracle: normal equations of y(
 TEST(dmdc, cuts_small_directions) {  // a fast third state of small weight; oracle: the two slow eigenvalues put in
     const StateSpace system(Matrix{{0.95, 0, 0}, {0, 0.8, 0}, {0, 0, 0.1}}, Matrix{{1}, {1}, {1e-4}},
                             Matrix::Identity(3, 3), Matrix::Zero(3, 1), 1);
-    IdData data = record(system, 400, 0, 4);
+    IdData data = simulated_data(system, 400, 0, 4);
     const DmdcFit found = dmdc(data, {2, 1});
     EXPECT_EQ(found.system.order(), 2);
     EXPECT_GT(found.singular_values[1], 0);
@@ -78,7 +78,7 @@ TEST(dmdc, cuts_small_directions) {  // a fast third state of small weight; orac
 }
 
 TEST(dmdc, does_not_depend_on_units) {  // oracle: the same data in other units
-    IdData data = record(system_of_three(), 300, 0.1, 5), other = data;
+    IdData data = simulated_data(system_of_three(), 300, 0.1, 5), other = data;
     other.experiments[0].y.col(0) *= 1000;
     other.experiments[0].u.col(1) *= 0.01;
     StateSpace one = dmdc(data, {2, 2}).system, two = dmdc(other, {2, 2}).system;
@@ -91,18 +91,18 @@ TEST(dmdc, joins_experiments) {  // oracle: the system put in
     StateSpace system = system_of_three();
     system.C = Matrix::Identity(3, 3);
     system.D = Matrix::Zero(3, 2);
-    const DmdcFit found = dmdc(IdData::merge({record(system, 60, 0, 6), record(system, 80, 0, 7)}));
+    const DmdcFit found = dmdc(IdData::merge({simulated_data(system, 60, 0, 6), simulated_data(system, 80, 0, 7)}));
     EXPECT_LT(difference(found.system, system), 1e-10);
 }
 
 TEST(dmdc, refuses_what_cannot_be_fitted) {
-    const IdData data = record(system_of_three(), 30, 0.1, 8);
+    const IdData data = simulated_data(system_of_three(), 30, 0.1, 8);
     EXPECT_THAT(thrown_message([&] { dmdc(data, {-1, 1}); }), HasSubstr("`rank` must be nonnegative"));
     EXPECT_THAT(thrown_message([&] { dmdc(data, {3, 1}); }), HasSubstr("a snapshot has only 2 values"));
     EXPECT_THAT(thrown_message([&] { dmdc(data, {2, 0}); }), HasSubstr("`delays` must be at least 1"));
     EXPECT_THAT(thrown_message([&] { dmdc(data, {2, 10}); }), HasSubstr("too few samples"));
     EXPECT_THAT(thrown_message([&] { dmdc(data, {2, 40}); }), HasSubstr("too few samples"));
-    IdData twins = record(system_of_three(), 100, 0, 9);
+    IdData twins = simulated_data(system_of_three(), 100, 0, 9);
     twins.experiments[0].y.col(1) = twins.experiments[0].y.col(0);
     EXPECT_THAT(thrown_message([&] { dmdc(twins, {2, 1}); }), HasSubstr("the data support only 1 direction"));
 }

@@ -22,7 +22,7 @@ constexpr double kSampling = 0.5;
 
 /// y(k) = 0.5 y(k-1) + 0.8 u(k-2) + u(k-1)^2 - 0.05 y(k-2)^2 - 0.5 + e, the equation of Chen and Billings' first
 /// example.
-IdData record(Index N, double noise, std::uint32_t seed) {
+IdData simulated_data(Index N, double noise, std::uint32_t seed) {
     RandomStream chance(seed);
     const Vector u = chance.uniform(N).array() * 2 - 1, e = noise * chance.normal(N);
     Vector y = Vector::Zero(N);
@@ -40,7 +40,7 @@ double value_of(const NarxFit& found, const std::string& name) {
 }
 
 TEST(narx, finds_the_equation_of_a_clean_record) {  // oracle: the equation put in
-    const NarxFit found = narx(record(300, 0, 1), kLags);
+    const NarxFit found = narx(simulated_data(300, 0, 1), kLags);
     EXPECT_THAT(found.fit.names, UnorderedElementsAre("1", "y1(k-1)", "u1(k-2)", "u1(k-1)^2", "y1(k-2)^2"));
     EXPECT_NEAR(value_of(found, "y1(k-1)"), 0.5, 1e-10);
     EXPECT_NEAR(value_of(found, "u1(k-2)"), 0.8, 1e-10);
@@ -52,7 +52,7 @@ TEST(narx, finds_the_equation_of_a_clean_record) {  // oracle: the equation put 
 }
 
 TEST(narx, of_degree_one_is_arx) {  // oracle: arx, without a constant in the data
-    IdData data = record(400, 0.1, 3);
+    IdData data = simulated_data(400, 0.1, 3);
     NarxOptions all{1, 5};
     const NarxFit found = narx(data, kLags, all);
     Experiment& experiment = data.experiments[0];
@@ -73,7 +73,7 @@ TEST(narx, reports_the_errors_it_has) {  // oracle: statistics over 200 seeds
     double stated = 0;
     NarxOptions five{2, 5};
     for (int run = 0; run < runs; ++run) {
-        const NarxFit found = narx(record(300, 0.1, static_cast<std::uint32_t>(run + 1)), kLags, five);
+        const NarxFit found = narx(simulated_data(300, 0.1, static_cast<std::uint32_t>(run + 1)), kLags, five);
         errors[run] = value_of(found, "u1(k-1)^2") - 1;
         for (std::size_t i = 0; i < found.fit.names.size(); ++i)
             if (found.fit.names[i] == "u1(k-1)^2") stated += found.fit.std[static_cast<Index>(i)] / runs;
@@ -84,17 +84,17 @@ TEST(narx, reports_the_errors_it_has) {  // oracle: statistics over 200 seeds
 }
 
 TEST(narx, takes_the_terms_that_reduce_most) {  // oracle: shares add up to what is explained
-    const NarxFit found = narx(record(500, 0.05, 2), kLags, {2, 4});
+    const NarxFit found = narx(simulated_data(500, 0.05, 2), kLags, {2, 4});
     ASSERT_EQ(found.steps.size(), 4u);
     double explained = 0;
     for (const NarxStep& step : found.steps) explained += step.error_reduction;
-    const IdData data = record(500, 0.05, 2);
+    const IdData data = simulated_data(500, 0.05, 2);
     const double power = data.experiments[0].y.bottomRows(498).squaredNorm();
     EXPECT_NEAR(explained, 1 - found.fit.loss * 498 / power, 1e-10);
 }
 
 TEST(narx, runs_from_given_outputs) {  // oracle: the recursion written out
-    const NarxFit found = narx(record(300, 0, 1), kLags);
+    const NarxFit found = narx(simulated_data(300, 0, 1), kLags);
     const Matrix u = Matrix::Constant(6, 1, 0.25);
     const FreeRun run = found.model->free_run(inputs_alone(u, kSampling, Hold::kZoh), 0, Vector{{0.4, -0.3}});
     Vector y(6);
@@ -122,11 +122,11 @@ TEST(narx, reports_when_a_run_is_lost) {  // oracle: y(k) = 1.5 y(k-1) + u grows
 }
 
 TEST(narx, joins_experiments_and_inputs) {  // oracle: the equation put in
-    const IdData one = record(150, 0, 5), two = record(150, 0, 6);
+    const IdData one = simulated_data(150, 0, 5), two = simulated_data(150, 0, 6);
     const NarxFit found = narx(IdData::merge({one, two}), kLags);
     EXPECT_NEAR(value_of(found, "u1(k-1)^2"), 1, 1e-10);
     Matrix u(300, 2);
-    const IdData data = record(300, 0, 7);
+    const IdData data = simulated_data(300, 0, 7);
     u << RandomStream(9).normal(300), data.experiments[0].u;
     const NarxFit other = narx(IdData(data.experiments[0].y, u, kSampling), {2, {1, 2}, {1, 1}});
     EXPECT_NEAR(value_of(other, "u2(k-1)^2"), 1, 1e-10);
@@ -134,7 +134,7 @@ TEST(narx, joins_experiments_and_inputs) {  // oracle: the equation put in
 }
 
 TEST(narx, refuses_what_cannot_be_fitted) {
-    const IdData data = record(50, 0, 1);
+    const IdData data = simulated_data(50, 0, 1);
     EXPECT_THAT(thrown_message([&] { narx(data, {0, {0}, {1}}); }), HasSubstr("uses no past value"));
     EXPECT_THAT(thrown_message([&] { narx(data, {-1, {1}, {1}}); }), HasSubstr("must be nonnegative"));
     EXPECT_THAT(thrown_message([&] { narx(data, {1, {1, 1}, {1, 1}}); }), HasSubstr("for 2 inputs"));
@@ -142,8 +142,14 @@ TEST(narx, refuses_what_cannot_be_fitted) {
                     narx(data, kLags, {2, 16});
                 }),
                 HasSubstr("the lags and the degree allow only 15 candidates"));
-    EXPECT_THAT(thrown_message([&] { narx(data, {49, {1}, {1}}, {1, 0}); }), HasSubstr("all required past values is 1,"));
-    EXPECT_THAT(thrown_message([&] { narx(data, {60, {1}, {1}}, {1, 0}); }), HasSubstr("all required past values is 0,"));
+    EXPECT_THAT(thrown_message([&] {
+                    narx(data, {49, {1}, {1}}, {1, 0});
+                }),
+                HasSubstr("all required past values is 1,"));
+    EXPECT_THAT(thrown_message([&] {
+                    narx(data, {60, {1}, {1}}, {1, 0});
+                }),
+                HasSubstr("all required past values is 0,"));
     EXPECT_THAT(thrown_message([&] { narx(data, kLags, {2, -1}); }), HasSubstr("`terms`"));
     EXPECT_THAT(thrown_message([&] {
                     narx(data, kLags, {4, 0});

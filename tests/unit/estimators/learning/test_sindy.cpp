@@ -53,7 +53,7 @@ SindyOptions weakly() {
 }
 
 TEST(sindy, finds_lorenz_without_noise) {
-    const IdData data = lorenz_record(0.005, 4000);
+    const IdData data = lorenz_data(0.005, 4000);
     for (const int degree : {2, 3}) {
         expect_equations(polynomials(data, degree), kLorenz, 1);
         expect_equations(polynomials(data, degree, weakly()), kLorenz, 1);
@@ -61,7 +61,7 @@ TEST(sindy, finds_lorenz_without_noise) {
 }
 
 TEST(sindy, finds_lotka_volterra_without_noise) {
-    const IdData data = lotka_volterra_record(0.05, 800);
+    const IdData data = lotka_volterra_data(0.05, 800);
     for (const int degree : {2, 3}) {
         expect_equations(polynomials(data, degree), kLotkaVolterra, 1);
         expect_equations(polynomials(data, degree, weakly()), kLotkaVolterra, 1);
@@ -69,20 +69,20 @@ TEST(sindy, finds_lotka_volterra_without_noise) {
 }
 
 TEST(sindy, finds_lorenz_under_noise_in_weak_form) {
-    const IdData clean = lorenz_record(0.005, 6000);
+    const IdData clean = lorenz_data(0.005, 6000);
     for (std::uint32_t seed = 1; seed <= 10; ++seed)
         for (const int degree : {2, 3})
             expect_equations(polynomials(with_relative_noise(clean, 0.01, seed), degree, weakly()), kLorenz, 5);
 }
 
 TEST(sindy, finds_lotka_volterra_under_noise_in_weak_form) {
-    const IdData clean = lotka_volterra_record(0.05, 1200);
+    const IdData clean = lotka_volterra_data(0.05, 1200);
     for (std::uint32_t seed = 1; seed <= 10; ++seed)
         expect_equations(polynomials(with_relative_noise(clean, 0.01, seed), 2, weakly()), kLotkaVolterra, 5);
 }
 
 TEST(sindy, weak_form_bears_more_noise_than_derivatives) {  // oracle: the support put in, 10 seeds
-    const IdData clean = lorenz_record(0.005, 6000);
+    const IdData clean = lorenz_data(0.005, 6000);
     int weak = 0, plain = 0;
     for (std::uint32_t seed = 1; seed <= 10; ++seed) {
         const IdData noisy = with_relative_noise(clean, 0.1, seed);
@@ -94,7 +94,7 @@ TEST(sindy, weak_form_bears_more_noise_than_derivatives) {  // oracle: the suppo
 }
 
 /// A tank: dh/dt = 0.5 u - 0.3 sqrt(h) with a held input, exact between samples by 50 steps of Runge and Kutta.
-IdData tank_record(Index N) {
+IdData tank_data(Index N) {
     RandomStream chance(1);
     Matrix h(N, 1), u(N, 1);
     double x = 1;
@@ -125,7 +125,7 @@ FunctionLibrary tank_library() {
 }
 
 TEST(sindy, takes_functions_and_inputs) {
-    const IdData data = tank_record(600);
+    const IdData data = tank_data(600);
     const Coefficients truth = {{"h: u", 0.5}, {"h: sqrt(h)", -0.3}};
     const SindyFit found = sindy(data, tank_library());
     expect_equations(found, truth, 1);
@@ -135,7 +135,7 @@ TEST(sindy, takes_functions_and_inputs) {
 }
 
 TEST(sindy, joins_experiments_and_irregular_samples) {
-    const IdData data = lotka_volterra_record(0.05, 800);
+    const IdData data = lotka_volterra_data(0.05, 800);
     const IdData joined = IdData::merge({data.range(1, 300), data.range(400, 800)});
     expect_equations(polynomials(joined, 2), kLotkaVolterra, 1);
     std::vector<Index> kept;
@@ -151,7 +151,7 @@ TEST(sindy, joins_experiments_and_irregular_samples) {
 }
 
 TEST(sindy, runs_freely_from_the_first_sample) {  // oracle: the Runge-Kutta method of the data
-    const IdData data = lotka_volterra_record(0.05, 800);
+    const IdData data = lotka_volterra_data(0.05, 800);
     const SindyFit found = polynomials(data, 2);
     EXPECT_GT(found.fit.fit_percent.minCoeff(), 99);
     const SindyModel truth(
@@ -177,7 +177,7 @@ TEST(sindy, reports_when_a_run_is_lost) {  // oracle: dx/dt = x^2 from 1 is 1/(1
 }
 
 TEST(sindy, warns_of_a_state_without_terms) {
-    IdData data = tank_record(200);
+    IdData data = tank_data(200);
     FunctionLibrary far{{"sin"}, [](const Matrix& X, const Matrix&) { return Matrix((300 * X.array()).sin()); }};
     SindyOptions strict;
     strict.threshold = 0.9;
@@ -186,7 +186,7 @@ TEST(sindy, warns_of_a_state_without_terms) {
 }
 
 TEST(sindy, refuses_what_cannot_be_fitted) {
-    const IdData data = lotka_volterra_record(0.05, 30);
+    const IdData data = lotka_volterra_data(0.05, 30);
     EXPECT_THAT(thrown_message([&] { polynomials(data.range(1, 8), 3); }),
                 HasSubstr("greater than the number of functions, 10"));
     EXPECT_THAT(thrown_message([&] { polynomials(data.range(1, 4), 1); }),

@@ -27,7 +27,7 @@ TEST(rivsvf, with_the_model_of_lssvf_it_gives_ivsvf) {  // oracle: ivsvf, on dat
 }
 
 TEST(rivsvf, by_itself_it_ends_near_ivsvf) {  // oracle: ivsvf: other instruments, the same consistent estimate
-    const IdData data = course_record(0.1, 3);
+    const IdData data = course_system_data(0.1, 3);
     const TransferStructure structure = TransferStructure::single(2, 0);
     const Fit pass = rivsvf(data, structure, recursive(3));
     Fit batch = ivsvf(data, structure, cutoff(3));
@@ -40,12 +40,12 @@ TEST(rivsvf, follows_a_parameter_that_jumps) {  // oracle: the truth
     RecursiveOptions options = recursive(3);
     options.forgetting = 0.97;
     EXPECT_LT(
-        relative_difference(rivsvf(jumping_record(), TransferStructure::single(1, 0), options).theta, values({1, 4})),
+        relative_difference(rivsvf(jumping_data(), TransferStructure::single(1, 0), options).theta, values({1, 4})),
         0.03);
 }
 
 TEST(rivsvf, refuses_a_model_that_does_not_suit) {  // oracle: the sentence names the fault
-    const IdData data = course_record(0.1, 3);
+    const IdData data = course_system_data(0.1, 3);
     RecursiveOptions options = recursive(3);
     options.model = TransferFunction(values({1}), values({1, 1}));
     EXPECT_THAT(thrown_message([&] { rivsvf(data, TransferStructure::single(2, 0), options); }), HasSubstr("2 poles"));

@@ -29,7 +29,7 @@ TEST(rlssvf, forgetting_nothing_gives_lssvf) {  // oracle: lssvf, on data of all
 
 // oracle: weighted least squares with stored columns from lsim
 TEST(rlssvf, forgetting_weighs_old_samples_less) {
-    const IdData data = course_record(0.1, 3);
+    const IdData data = course_system_data(0.1, 3);
     const Vector y = data.experiments[0].y.col(0), u = data.experiments[0].u.col(0);
     const Matrix y_f = state_variable_filter(y, 2, 3, 0.01, Hold::kFoh);
     Matrix Phi(y.size(), 3);
@@ -52,7 +52,7 @@ TEST(rlssvf, forgetting_weighs_old_samples_less) {
 
 // oracle: the Kalman filter as textbooks write it, on the same columns
 TEST(rlssvf, drift_is_a_kalman_filter) {
-    const IdData data = course_record(0.1, 3);
+    const IdData data = course_system_data(0.1, 3);
     const Vector y = data.experiments[0].y.col(0), u = data.experiments[0].u.col(0);
     const Matrix y_f = state_variable_filter(y, 2, 3, 0.01, Hold::kFoh);
     Matrix Phi(y.size(), 3);
@@ -75,7 +75,7 @@ TEST(rlssvf, drift_is_a_kalman_filter) {
 }
 
 TEST(rlssvf, follows_a_parameter_that_jumps) {  // oracle: the truth on either side
-    const IdData data = jumping_record();
+    const IdData data = jumping_data();
     RecursiveOptions options = recursive(3);
     options.forgetting = 0.97;
     const Fit G = rlssvf(data, TransferStructure::single(1, 0), options);
@@ -87,11 +87,11 @@ TEST(rlssvf, follows_a_parameter_that_jumps) {  // oracle: the truth on either s
 }
 
 TEST(rlssvf, refuses_what_it_cannot_use) {  // oracle: the sentence names method and fault
-    const IdData data = course_record(0.1, 3);
+    const IdData data = course_system_data(0.1, 3);
     const TransferStructure structure = TransferStructure::single(2, 0);
-    const auto refused = [&](const IdData& record, const TransferStructure& expected_value,
+    const auto refused = [&](const IdData& data_set, const TransferStructure& expected_value,
                              const RecursiveOptions& options) {
-        return thrown_message([&] { rlssvf(record, expected_value, options); });
+        return thrown_message([&] { rlssvf(data_set, expected_value, options); });
     };
     RecursiveOptions options = recursive(3);
     for (const double forgetting : {0.0, -0.5, 1.01, std::nan("")}) {

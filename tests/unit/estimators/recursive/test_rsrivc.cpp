@@ -29,7 +29,7 @@ TEST(rsrivc, with_a_fixed_model_it_is_one_pass_of_srivc) {
 }
 
 TEST(rsrivc, the_estimate_of_srivc_stays) {  // oracle: srivc
-    const IdData data = course_record(0.2, 5);
+    const IdData data = course_system_data(0.2, 5);
     const TransferStructure structure = TransferStructure::single(2, 0);
     FitOptions exact;
     exact.tolerance = 1e-12;
@@ -42,7 +42,7 @@ TEST(rsrivc, the_estimate_of_srivc_stays) {  // oracle: srivc
 }
 
 TEST(rsrivc, by_itself_it_ends_near_srivc) {  // oracle: srivc
-    const IdData data = course_record(0.2, 5);
+    const IdData data = course_system_data(0.2, 5);
     const TransferStructure structure = TransferStructure::single(2, 0);
     const Fit pass = rsrivc(data, structure, recursive(3)), batch = srivc(data, structure);
     for (Index i = 0; i < 3; ++i) EXPECT_LT(std::abs(pass.theta[i] - batch.theta[i]), batch.std[i]) << i;
@@ -52,10 +52,10 @@ TEST(rsrivc, follows_parameters_that_change) {  // oracle: the truth
     RecursiveOptions options = recursive(3);
     options.forgetting = 0.97;
     const TransferStructure structure = TransferStructure::single(1, 0);
-    EXPECT_LT(relative_difference(rsrivc(jumping_record(), structure, options).theta, values({1, 4})), 0.03);
+    EXPECT_LT(relative_difference(rsrivc(jumping_data(), structure, options).theta, values({1, 4})), 0.03);
     options.forgetting = 1;
     options.drift = values({0, 1e-3});
-    EXPECT_LT(relative_difference(rsrivc(jumping_record(), structure, options).theta, values({1, 4})), 0.05);
+    EXPECT_LT(relative_difference(rsrivc(jumping_data(), structure, options).theta, values({1, 4})), 0.05);
 }
 
 TEST(rsrivc, can_be_stopped) {  // oracle: the termination

@@ -11,7 +11,7 @@ using namespace dynlab::test;
 
 // oracle: columns by lsim, and the residual of the definition
 TEST(loop_equations, hold_filtered_signals_of_all_experiments) {
-    const IdData one = loop_record(0.02, 3), data = IdData::merge({one, one});
+    const IdData one = loop_data(0.02, 3), data = IdData::merge({one, one});
     const TransferStructure structure = TransferStructure::single(2, 0);
     const DenominatorGroup group(data, structure, 0, Hold::kFoh);
     const auto clean = LoopSignals("a test", data, {loop_controller()}).of_model(loop_plant());

@@ -13,7 +13,7 @@ using namespace dynlab::test;
 using testing::HasSubstr;
 
 TEST(loop_search, comes_back_to_the_optimum_from_either_side) {  // oracle: one end from two starts, and its truth
-    const IdData data = loop_record(0.02, 3);
+    const IdData data = loop_data(0.02, 3);
     const LoopSignals signals("a test", data, {loop_controller()});
     FitOptions options;
     options.tolerance = 1e-10;

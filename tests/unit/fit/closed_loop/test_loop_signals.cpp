@@ -10,7 +10,7 @@ using namespace dynlab;
 using namespace dynlab::test;
 
 TEST(loop_signals, the_projection_is_what_the_reference_makes_of_the_input) {  // oracle: the loop without noise
-    const IdData data = loop_record(0.02, 3);
+    const IdData data = loop_data(0.02, 3);
     const auto clean = ClosedLoop(loop_plant(), loop_controller(), kLoopTs).to_reference(data.experiments[0].r.col(0));
     const Vector projected = LoopSignals("a test", data, {}).projected_inputs().front();
     const double noise = (data.experiments[0].u.col(0) - clean.u).norm();
@@ -19,7 +19,7 @@ TEST(loop_signals, the_projection_is_what_the_reference_makes_of_the_input) {  /
 }
 
 TEST(loop_signals, a_known_controller_is_simulated) {  // oracle: the loop without noise
-    const IdData data = loop_record(0.02, 3);
+    const IdData data = loop_data(0.02, 3);
     const LoopSignals signals("a test", data, {loop_controller()});
     const LoopSignals::All all = signals.of_model(loop_plant());
     const auto clean = ClosedLoop(loop_plant(), loop_controller(), kLoopTs).to_reference(data.experiments[0].r.col(0));
@@ -35,7 +35,7 @@ TEST(loop_signals, the_record_shows_how_late_the_controller_answers) {  // oracl
         LoopController controller = loop_controller();
         controller.computing_delay = late;
         const IdData data =
-            ClosedLoop(loop_plant(), controller, kLoopTs).record(r, 0.05 * RandomStream(3).normal(r.size()));
+            ClosedLoop(loop_plant(), controller, kLoopTs).simulate(r, 0.05 * RandomStream(3).normal(r.size()));
         controller.computing_delay = 0;
         const LoopSignals signals("a test", data, {controller, true});
         EXPECT_EQ(signals.controller()->computing_delay, late);

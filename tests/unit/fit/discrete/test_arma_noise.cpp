@@ -23,8 +23,8 @@ TEST(arma_noise, whitening_undoes_the_noise_filter) {  // oracle: the definition
 
 TEST(arma_noise, finds_the_model_within_its_errors) {  // oracle: the simulated noise; two data sets, fixed seeds
     const Vector C = values({1, 0.9}), D = values({1, -1, 0.2});
-    const std::vector<Vector> records{arma_signal(C, D, 2000, 1), arma_signal(C, D, 1000, 2)};
-    const ArmaNoise found = estimate_arma(records, 1, 2, 1e-8);
+    const std::vector<Vector> data_sets{arma_signal(C, D, 2000, 1), arma_signal(C, D, 1000, 2)};
+    const ArmaNoise found = estimate_arma(data_sets, 1, 2, 1e-8);
     const Vector std = found.covariance.diagonal().cwiseSqrt();
     EXPECT_EQ(found.termination, Termination::kConverged);
     EXPECT_NEAR(found.C[1], 0.9, 3 * std[0]);

@@ -16,7 +16,7 @@ using testing::HasSubstr;
 const PolynomialOrders kOrders = PolynomialOrders::output_error({1}, {1}, {1});
 const Vector kTruth{{-0.7, 0.5}};
 
-IdData record(Index N, double offset) {
+IdData simulated_data(Index N, double offset) {
     const Vector u = random_levels(N, 3, 7).array() + 2, e = Vector::Zero(N);
     const Vector y = model_output(PolynomialModel(kOrders, kTruth, 1), u, e).array() + offset;
     return IdData(Matrix(y + 0.05 * RandomStream(1).normal(N)), Matrix(u), 1);
@@ -31,14 +31,14 @@ Fit fitted(const IdData& data, InitialState state, Offset offset) {
 }
 
 TEST(discrete_fit, chooses_the_start_that_made_the_record) {  // oracle: the simulated system
-    const Fit rest = fitted(record(500, 0), InitialState::kAuto, Offset::kAuto);
+    const Fit rest = fitted(simulated_data(500, 0), InitialState::kAuto, Offset::kAuto);
     EXPECT_EQ(rest.start.state, InitialState::kZero) << message_text(rest.full_message());
     EXPECT_FALSE(rest.start.offset);
-    const Fit lifted = fitted(record(500, 3), InitialState::kAuto, Offset::kAuto);
+    const Fit lifted = fitted(simulated_data(500, 3), InitialState::kAuto, Offset::kAuto);
     EXPECT_EQ(lifted.start.state, InitialState::kZero) << message_text(lifted.full_message());
     EXPECT_TRUE(lifted.start.offset);
     EXPECT_NEAR(lifted.offsets(0, 0), 3, 0.05);
-    const Fit running = fitted(record(600, 0).range(101, 600), InitialState::kAuto, Offset::kNone);
+    const Fit running = fitted(simulated_data(600, 0).range(101, 600), InitialState::kAuto, Offset::kNone);
     EXPECT_NE(running.start.state, InitialState::kZero) << message_text(running.full_message());
     for (const Fit* fit : {&rest, &lifted, &running})
         for (Index i = 0; i < 2; ++i)
@@ -46,7 +46,7 @@ TEST(discrete_fit, chooses_the_start_that_made_the_record) {  // oracle: the sim
 }
 
 TEST(discrete_fit, measures) {  // oracle: the simulation, sample by sample
-    const IdData data = record(400, 0);
+    const IdData data = simulated_data(400, 0);
     const Fit fit = fitted(data, InitialState::kZero, Offset::kNone);
     const Vector y = data.experiments[0].y, u = data.experiments[0].u;
     double squares = 0, x = 0;
@@ -60,7 +60,7 @@ TEST(discrete_fit, measures) {  // oracle: the simulation, sample by sample
 }
 
 TEST(discrete_fit, the_operating_point_comes_off) {  // oracle: second route, the centered data
-    const IdData data = record(400, 10);
+    const IdData data = simulated_data(400, 10);
     const CenteredData centered = without_operating_points(data);
     const Fit removed = fitted(data, InitialState::kZero, Offset::kRemove);
     const Fit by_hand = fitted(centered.data, InitialState::kZero, Offset::kNone);

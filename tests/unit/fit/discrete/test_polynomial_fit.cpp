@@ -19,14 +19,14 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 TEST(polynomial_fit, refuses_other_data) {  // oracle: the promises of the header
-    const IdData data = course_record(0.1, 1);
+    const IdData data = course_system_data(0.1, 1);
     const PolynomialOrders orders = PolynomialOrders::arx(1, {1}, {1});
     const auto refusal = [](const IdData& given, const PolynomialOrders& asked) {
         return thrown_message([&] { check_polynomial_data("method", given, asked); });
     };
     EXPECT_EQ(refusal(data, orders), "");
-    const Experiment& record = data.experiments[0];
-    EXPECT_THAT(refusal(IdData(record.y, record.u, data.time()), orders), HasSubstr("regularly sampled"));
+    const Experiment& data_set = data.experiments[0];
+    EXPECT_THAT(refusal(IdData(data_set.y, data_set.u, data.time()), orders), HasSubstr("regularly sampled"));
     EXPECT_THAT(refusal(data, PolynomialOrders::arx(1, {1, 1}, {1, 1})), HasSubstr("the data have 1 input, so each"));
     EXPECT_THAT(refusal(data.range(1, 5), PolynomialOrders::arx(1, {1}, {5})), HasSubstr("delay nk = 5"));
 }

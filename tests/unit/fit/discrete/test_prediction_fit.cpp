@@ -20,14 +20,14 @@ PolynomialOrders armax_orders() {
 }
 const Vector kTruth{{-0.8, 0.5, 0.4}};
 
-IdData record(Index N) {
+IdData simulated_data(Index N) {
     const Vector u = random_levels(N, 3, 7), e = 0.1 * RandomStream(1).normal(N);
     return IdData(Matrix(model_output(PolynomialModel(armax_orders(), kTruth, 1), u, e)), Matrix(u), 1);
 }
 
 TEST(prediction_fit,
      its_minimum_is_stationary) {  // oracle: central differences of the model's own loss, its size by hand
-    const IdData data = record(2000);
+    const IdData data = simulated_data(2000);
     const std::vector<SampledExperiment> experiments = sampled_experiments(data);
     const StartCondition start{InitialState::kEstimate, false};
     const PredictionModel model(armax_orders(), start, experiments);

@@ -19,7 +19,7 @@ PolynomialOrders full_orders() {
 
 const Vector kTheta{{-1.2, 0.5, -0.7, 1, 0.5, -0.4, 0.2, -2, 0.6, -0.3, 0.1}};
 
-std::vector<SampledExperiment> records(double noise) {
+std::vector<SampledExperiment> data_sets(double noise) {
     std::vector<SampledExperiment> list;
     for (const Index N : {120, 90}) {
         Matrix u(N, 2);
@@ -36,7 +36,7 @@ const StartCondition kConditions[] = {{InitialState::kZero, false},
                                       {InitialState::kEstimate, true}};
 
 TEST(prediction_model, sensitivities_are_those_of_its_output) {  // oracle: central differences
-    const auto experiments = records(0.3);
+    const auto experiments = data_sets(0.3);
     for (const StartCondition& condition : kConditions) {
         const PredictionModel model(full_orders(), condition, experiments);
         Vector theta = Vector::Constant(model.parameter_count(), 0.2), output;
@@ -56,7 +56,7 @@ TEST(prediction_model, sensitivities_are_those_of_its_output) {  // oracle: cent
 }
 
 TEST(prediction_model, products_are_those_of_its_sensitivities) {  // oracle: second route, the stored sensitivities
-    const auto experiments = records(0.3);
+    const auto experiments = data_sets(0.3);
     for (const StartCondition& condition : kConditions) {
         const PredictionModel model(full_orders(), condition, experiments);
         Vector theta = Vector::Constant(model.parameter_count(), 0.2);
@@ -70,7 +70,7 @@ TEST(prediction_model, products_are_those_of_its_sensitivities) {  // oracle: se
 }
 
 TEST(prediction_model, errors_are_the_noise_that_went_in) {  // oracle: the simulated noise, once the start has decayed
-    const auto experiments = records(0.3);
+    const auto experiments = data_sets(0.3);
     const PredictionModel model(full_orders(), {InitialState::kZero, false}, experiments);
     Vector output;
     model.simulate(kTheta, output, nullptr);
@@ -86,14 +86,14 @@ TEST(prediction_model, errors_are_the_noise_that_went_in) {  // oracle: the simu
 }
 
 TEST(prediction_model, simulation_ignores_the_noise) {  // oracle: the difference equation without noise
-    const auto experiments = records(0);
+    const auto experiments = data_sets(0);
     const PredictionModel model(full_orders(), {InitialState::kZero, false}, experiments);
     EXPECT_LT((model.simulated(kTheta) - model.target()).cwiseAbs().maxCoeff(), 1e-11);
 }
 
 TEST(prediction_model, without_noise_model_it_is_the_output) {  // oracle: DiscreteOutput
     PolynomialOrders orders = PolynomialOrders::output_error({2, 1}, {1, 2}, {1, 0});
-    const auto experiments = records(0.3);
+    const auto experiments = data_sets(0.3);
     for (const StartCondition& condition : kConditions) {
         const PredictionModel model(orders, condition, experiments);
         const DiscreteOutput other(orders, condition, experiments);
@@ -108,7 +108,7 @@ TEST(prediction_model, without_noise_model_it_is_the_output) {  // oracle: Discr
 }
 
 TEST(prediction_model, stays_where_the_noise_model_can_be_inverted) {  // oracle: definition
-    const auto experiments = records(0.3);
+    const auto experiments = data_sets(0.3);
     const PredictionModel model(full_orders(), {InitialState::kZero, false}, experiments);
     Vector theta = kTheta, output;
     theta[8] = 1.1;  // c1

@@ -26,7 +26,7 @@ Vector true_values() {
     return values({G.den()[1], G.den()[2], G.den()[3], 40, 35, G.delay()});
 }
 
-IdData slowly_sampled_record(double sigma, std::uint32_t seed) {
+IdData slowly_sampled_data(double sigma, std::uint32_t seed) {
     const Vector u = prbs(9, 2);
     const Vector x = lsim(slowly_sampled_system(), u, kTs);
     return IdData(Matrix(x + sigma * RandomStream(seed).normal(u.size())), Matrix(u), kTs);
@@ -44,7 +44,7 @@ Fit fit_from(const IdData& data, const TransferStructure& structure, const Vecto
 }
 
 TEST(sampled_starts, lead_to_the_system) {  // oracle: the simulated system, without noise
-    const IdData data = slowly_sampled_record(0, 1);
+    const IdData data = slowly_sampled_data(0, 1);
     const Fit poor = fit_from(data, with_free_delay(3, 1), values({3, 9, 8, -20, 8, 4}));
     ASSERT_GT(poor.loss, 0.01);
     FitOptions options;
@@ -55,7 +55,7 @@ TEST(sampled_starts, lead_to_the_system) {  // oracle: the simulated system, wit
 }
 
 TEST(sampled_starts, there_are_none_where_nothing_is_missed) {  // oracle: the search from the system itself
-    const IdData data = slowly_sampled_record(1, 2);
+    const IdData data = slowly_sampled_data(1, 2);
     const Fit fit = fit_from(data, with_free_delay(3, 1), true_values());
     FitOptions options;
     options.largest_delay = 5;
@@ -67,7 +67,7 @@ TEST(sampled_starts, there_are_none_where_nothing_is_missed) {  // oracle: the s
 TEST(sampled_starts, errors_follow_the_input_where_something_is_missed) {
     int false_alarms = 0;
     for (std::uint32_t seed = 1; seed <= 50; ++seed) {
-        const IdData data = slowly_sampled_record(1, seed);
+        const IdData data = slowly_sampled_data(1, seed);
         false_alarms += fast_errors_follow_input(data, fit_from(data, with_free_delay(3, 1), true_values())) ? 1 : 0;
         const Fit lower_order = fit_from(data, with_free_delay(1, 0), values({2, 4, 2.25 * kTs}));
         EXPECT_TRUE(fast_errors_follow_input(data, lower_order)) << seed;
@@ -93,7 +93,7 @@ TEST(sampled_starts, slow_errors_are_not_theirs) {
 TEST(sampled_starts, colored_errors_are_distinguished_from_white_ones) {
     int false_alarms = 0;
     for (std::uint32_t seed = 1; seed <= 50; ++seed) {
-        IdData data = slowly_sampled_record(0, 1);
+        IdData data = slowly_sampled_data(0, 1);
         const Fit fit = fit_from(data, with_free_delay(3, 1), true_values());
         const Vector clean = data.experiments.front().y.col(0);
         Vector noise = RandomStream(seed).normal(clean.size());

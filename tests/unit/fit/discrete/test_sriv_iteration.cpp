@@ -12,14 +12,14 @@ const PolynomialOrders kOrders = PolynomialOrders::output_error({2}, {2}, {1});
 const Vector kTruth{{-1.5, 0.7, 0.8, -0.3}};
 
 /// Data of the system, from rest, with white noise of this size.
-std::vector<SampledExperiment> record(Index N, double noise) {
+std::vector<SampledExperiment> simulated_data(Index N, double noise) {
     const Vector u = random_levels(N, 3, 7), none = Vector::Zero(N);
     const Vector y = model_output(PolynomialModel(kOrders, kTruth, 1), u, none) + noise * RandomStream(11).normal(N);
     return {{Matrix(u), y}};
 }
 
 TEST(sriv_iteration, an_exact_record_gives_its_system) {  // oracle: the system that made the data
-    const auto experiments = record(400, 0);
+    const auto experiments = simulated_data(400, 0);
     const DiscreteOutput model(kOrders, {InitialState::kZero, false}, experiments);
     const Vector y = model.target();
     for (const Vector& start : {Vector{{-1.2, 0.5, 0.5, 0}}, instrument_start(model, y)}) {
@@ -32,7 +32,7 @@ TEST(sriv_iteration, an_exact_record_gives_its_system) {  // oracle: the system 
 
 // Oracle: the equations that hold at the end, Psi' (y - output) = 0, with Psi from central differences.
 TEST(sriv_iteration, errors_are_orthogonal_to_the_instruments_at_its_end) {
-    const auto experiments = record(600, 0.3);
+    const auto experiments = simulated_data(600, 0.3);
     const DiscreteOutput model(kOrders, {InitialState::kZero, false}, experiments);
     const Vector y = model.target();
     const InstrumentSolution found = iterate_instruments(model, y, instrument_start(model, y), 100, 1e-12);
@@ -52,7 +52,7 @@ TEST(sriv_iteration, errors_are_orthogonal_to_the_instruments_at_its_end) {
 }
 
 TEST(sriv_iteration, ends_on_request) {  // oracle: the call itself
-    const auto experiments = record(200, 0.1);
+    const auto experiments = simulated_data(200, 0.1);
     const DiscreteOutput model(kOrders, {InitialState::kZero, false}, experiments);
     const InstrumentSolution found =
         iterate_instruments(model, model.target(), Vector{{-1.2, 0.5, 0.5, 0}}, 50, 1e-12, [] { return true; });

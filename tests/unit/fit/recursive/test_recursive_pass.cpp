@@ -14,7 +14,7 @@ using namespace dynlab::test;
 using testing::HasSubstr;
 
 TEST(recursive_pass, the_history_ends_with_the_estimate) {  // oracle: definition
-    const IdData data = course_record(0.1, 3);
+    const IdData data = course_system_data(0.1, 3);
     for (const RecursiveMethod kind :
          {RecursiveMethod::kLeastSquares, RecursiveMethod::kInstruments, RecursiveMethod::kRefined})
         for (const Index points : {1, 7, 1500, 100'000}) {
@@ -35,7 +35,7 @@ TEST(recursive_pass, messages_begin_with_the_method) {  // oracle: the sentence
     RecursiveOptions options = recursive(3);
     options.history_points = 0;
     EXPECT_THAT(thrown_message([&] {
-                    recursive_pass({"a test", Message("A pass")}, RecursiveMethod::kRefined, course_record(0.1, 3),
+                    recursive_pass({"a test", Message("A pass")}, RecursiveMethod::kRefined, course_system_data(0.1, 3),
                                    TransferStructure::single(2, 0), options);
                 }),
                 testing::StartsWith("a test: `history_points` must be at least 1"));

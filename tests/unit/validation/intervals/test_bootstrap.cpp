@@ -64,9 +64,9 @@ TEST(bootstrap, is_the_same_for_every_number_of_threads) {  // oracle: one threa
 }
 
 TEST(bootstrap, colors_its_errors_where_the_record_does) {  // oracle: scatter over 200 data sets with such errors
-    const int records = 200;
-    Vector estimates(records);
-    for (int k = 0; k < records; ++k)
+    const int data_sets = 200;
+    Vector estimates(data_sets);
+    for (int k = 0; k < data_sets; ++k)
         estimates[k] = model(0.05, 0.9, static_cast<std::uint32_t>(k + 10)).fit().theta[0];
     const double scatter = std::sqrt((estimates.array() - estimates.mean()).square().mean());
     double parametric = 0, residual = 0;

@@ -17,7 +17,7 @@ namespace test_profile_likelihood {
 using namespace dynlab;
 using testing::HasSubstr;
 
-IdData record(double noise, double delay, std::uint32_t seed = 1) {
+IdData simulated_data(double noise, double delay, std::uint32_t seed = 1) {
     const Vector u = prbs(5, 6);
     const TransferFunction G(Vector{{2.0}}, Vector{{1.0, 1.5}}, 0, delay);
     return IdData(Matrix(lsim(G, u, 0.1) + noise * RandomStream(seed).normal(u.size())), Matrix(u), 0.1);
@@ -30,7 +30,7 @@ TransferStructure delayed() {
 }
 
 TEST(profile_likelihood, rises_as_the_refitted_loss) {  // oracle: a fine search over the other parameter
-    const IdData data = record(0.2, 0);
+    const IdData data = simulated_data(0.2, 0);
     const RefittedOutput model(data, {TransferStructure::single(1, 0), {}, Vector{{1.5, 2}}});
     const Profile found = profile_likelihood(model, "a1");
     const Vector y = data.experiments[0].y.col(0), u = data.experiments[0].u.col(0);
@@ -48,7 +48,7 @@ TEST(profile_likelihood, rises_as_the_refitted_loss) {  // oracle: a fine search
 }
 
 TEST(profile_likelihood, of_a_delay_has_the_samples_on_its_grid) {  // oracle: multiples of 0.1 s
-    const RefittedOutput model(record(0.5, 0.33), {delayed(), {}, Vector{{1.5, 2, 0.33}}});
+    const RefittedOutput model(simulated_data(0.5, 0.33), {delayed(), {}, Vector{{1.5, 2, 0.33}}});
     const Profile found = profile_likelihood(model, "Td");
     ASSERT_TRUE(found.low && found.high);
     EXPECT_LT(*found.low, 0.33);
@@ -69,7 +69,7 @@ TEST(profile_likelihood,
 }
 
 TEST(profile_likelihood, can_be_stopped) {
-    const RefittedOutput model(record(0.5, 0.33), {delayed(), {}, Vector{{1.5, 2, 0.33}}});
+    const RefittedOutput model(simulated_data(0.5, 0.33), {delayed(), {}, Vector{{1.5, 2, 0.33}}});
     ProfileOptions options;
     int asked = 0;
     options.cancel = [&] { return ++asked > 5; };
@@ -77,7 +77,7 @@ TEST(profile_likelihood, can_be_stopped) {
 }
 
 TEST(profile_likelihood, says_what_it_needs) {
-    const RefittedOutput model(record(0.5, 0), {TransferStructure::single(1, 0), {}, Vector{{1.5, 2}}});
+    const RefittedOutput model(simulated_data(0.5, 0), {TransferStructure::single(1, 0), {}, Vector{{1.5, 2}}});
     EXPECT_THAT(thrown_message([&] { profile_likelihood(model, "Td"); }), HasSubstr("no estimated parameter 'Td'"));
     ProfileOptions options;
     options.points = 2;

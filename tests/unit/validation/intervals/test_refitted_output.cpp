@@ -16,14 +16,14 @@ namespace test_refitted_output {
 using namespace dynlab;
 using testing::HasSubstr;
 
-IdData record(double noise, double delay = 0) {
+IdData simulated_data(double noise, double delay = 0) {
     const Vector u = prbs(5, 6);
     const TransferFunction G(Vector{{2.0}}, Vector{{1.0, 4.0, 3.0}}, 0, delay);
     return IdData(Matrix(lsim(G, u, 0.05) + noise * RandomStream(1).normal(u.size())), Matrix(u), 0.05);
 }
 
 TEST(refitted_output, fits_what_coe_fits) {  // oracle: coe, from a start that is not its end
-    const IdData data = record(0.05);
+    const IdData data = simulated_data(0.05);
     FitOptions tight;
     tight.tolerance = 1e-10;
     const Fit reference = coe(data, TransferStructure::single(2, 0), tight);
@@ -37,7 +37,7 @@ TEST(refitted_output, fits_what_coe_fits) {  // oracle: coe, from a start that i
 }
 
 TEST(refitted_output, reports_models_that_these_data_move) {  // oracle: coe of these data and of others
-    const IdData data = record(0.05);
+    const IdData data = simulated_data(0.05);
     const TransferStructure structure = TransferStructure::single(2, 0);
     const Vector theta = coe(data, structure).theta;
     const RefittedOutput own(data, {structure, {}, theta}), others(data, {structure, {}, 1.2 * theta});
@@ -48,7 +48,7 @@ TEST(refitted_output, reports_models_that_these_data_move) {  // oracle: coe of 
 }
 
 TEST(refitted_output, fits_processes_with_start_and_offset) {  // oracle: procsrivc
-    IdData data = record(0.02, 0.23);
+    IdData data = simulated_data(0.02, 0.23);
     data.experiments[0].y.array() += 3;
     const Fit reference = procsrivc(data, ProcessStructure::parse("P2D"));
     const RefittedOutput model(data, {{}, ProcessStructure::parse("P2D"), reference.theta, reference.start});
@@ -58,7 +58,7 @@ TEST(refitted_output, fits_processes_with_start_and_offset) {  // oracle: procsr
 }
 
 TEST(refitted_output, holds_parameters) {  // oracle: coe with the parameter fixed
-    const IdData data = record(0.05);
+    const IdData data = simulated_data(0.05);
     FitOptions fixed;
     fixed.fixed = {{"a1", 4.5}};
     const Fit reference = coe(data, TransferStructure::single(2, 0), fixed);
@@ -70,14 +70,14 @@ TEST(refitted_output, holds_parameters) {  // oracle: coe with the parameter fix
 }
 
 TEST(refitted_output, takes_other_outputs) {  // oracle: a fit to data with these outputs
-    const IdData data = record(0.05), other = record(0);
+    const IdData data = simulated_data(0.05), other = simulated_data(0);
     const RefittedOutput model(data, {TransferStructure::single(2, 0), {}, Vector{{3.5, 3.2, 2}}});
     const Vector outputs = other.experiments[0].y.col(0);
     EXPECT_LT((model.fit({}, nullptr, &outputs).theta - Vector{{4, 3, 2}}).cwiseAbs().maxCoeff(), 1e-6);
 }
 
 TEST(refitted_output, refuses_what_it_cannot_repeat) {
-    const IdData data = record(0.05);
+    const IdData data = simulated_data(0.05);
     const FittedOutput fitted{TransferStructure::single(2, 0), {}, Vector{{4, 3, 2}}};
     EXPECT_THAT(thrown_message([&] { RefittedOutput(data.range(1, 3), fitted); }),
                 HasSubstr("more samples than the 3"));
