@@ -12,7 +12,7 @@
 namespace dynlab::inline cli {
 namespace {
 
-constexpr double kShortestShownTime = 0.01;  // s
+constexpr double kMinShownTime = 0.01;  // s
 
 void show_time(double seconds, const std::string& of, const char* indent = "") {
     std::cout << fmt::format("{:>8.0f} ms  {}{}\n", 1e3 * seconds, indent, of);
@@ -30,7 +30,7 @@ void show(const ReportResult& result) {
         total += seconds;
         if (step != kRunStep) continue;
         for (const auto& [cell, seconds_of_cell] : result.cells)
-            if (seconds_of_cell >= kShortestShownTime) show_time(seconds_of_cell, "cell " + cell, "  ");
+            if (seconds_of_cell >= kMinShownTime) show_time(seconds_of_cell, "cell " + cell, "  ");
     }
     show_time(total, "in total");
     show_use(result.long_calls, "long calls", "computed");

@@ -12,9 +12,9 @@ namespace dynlab::inline cli {
 /// One piece of work on what is not trusted: a job on standard input, its result on standard output.
 template <class Job>
 void do_sandbox_job(typename Job::Result (*work)(const Job&)) {
-    constexpr std::uint64_t kMostOfJob = 256u << 20;  // bytes: the answers of all runs, the files of checks
+    constexpr std::uint64_t kMaxJobBytes = 256u << 20;  // bytes: the answers of all runs, the files of checks
     const std::string bytes{std::istreambuf_iterator<char>(std::cin), {}};
-    std::cout << cbor_of(work(from_cbor<Job>(bytes, sandbox_limits(kMostOfJob)))) << std::flush;
+    std::cout << cbor_of(work(from_cbor<Job>(bytes, sandbox_limits(kMaxJobBytes)))) << std::flush;
 }
 
 }  // namespace dynlab::inline cli

@@ -39,7 +39,7 @@ class CsvReader {
         read_comments();
         layout_ = find_layout(file_, text_, at_, line_, options_);
         name_columns();
-        tell_layout();
+        report_layout();
         read_rows();
         count_instants();
         return std::move(table_);
@@ -209,7 +209,7 @@ class CsvReader {
         table_.units[column] = unit;
     }
 
-    void tell_layout() {
+    void report_layout() {
         if (layout_.passed_over == 1)
             note(Message("the table starts in line {}; the line above it is skipped", layout_.table_line));
         else if (layout_.passed_over > 1)
@@ -239,7 +239,7 @@ class CsvReader {
             if (kind == Kind::kMeasure) table_.units.insert({name, layout_.formats[j].unit});
             table_.columns.push_back(std::move(column.numbers));
         }
-        tell_missing(rows);
+        report_missing(rows);
         for (Message& sentence : rows.notes) note(std::move(sentence));
     }
 
@@ -258,7 +258,7 @@ class CsvReader {
                column.numbers[0] == column.numbers[0];
     }
 
-    void tell_missing(const TableRows& rows) {
+    void report_missing(const TableRows& rows) {
         MessageList reported;
         for (std::size_t j = 0; j < columns(); ++j)
             if (const TableColumn& column = rows.columns[j]; column.missing > 0)

@@ -205,9 +205,9 @@ Index usual_length(const LoadedData& data) {
     for (const auto& [name, variable] : data.variables)
         if (const Vector* vector = std::get_if<Vector>(&variable.value)) ++times[vector->size()];
     Index length = 0;
-    int most = 0;
+    int max_count = 0;
     for (const auto& [size, count] : times)
-        if (count >= most) most = count, length = size;
+        if (count >= max_count) max_count = count, length = size;
     return length;
 }
 

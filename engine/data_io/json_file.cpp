@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::uintmax_t kMostJsonBytes = 64u << 20;
+constexpr std::uintmax_t kMaxJsonBytes = 64u << 20;
 constexpr std::size_t kMaxJsonDepth = 100;
 
 /// Counts the memory that reading takes, and refuses more than a file of that size may take.
@@ -258,7 +258,7 @@ Json json_of_variable(const Variable& variable) {
 
 VariableTable read_json_file(const fs::path& file) {
     std::error_code error;
-    if (fs::file_size(file, error) > kMostJsonBytes && !error)
+    if (fs::file_size(file, error) > kMaxJsonBytes && !error)
         throw EnvironmentError("{}: the file exceeds the limit of 64 MB for JSON files", file.string());
     const std::string text = read_file(file);
     VariableBuilder builder(file, text.size());

@@ -68,8 +68,8 @@ Message refusal_of_object(std::size_t number, const std::string& last_name) {
 /// The next header; nothing at the end. HDF5 finds every variable separately, so that an invalid one (a link to another
 /// file) is skipped.
 MatVariable next_variable(mat_t* mat, bool is_hdf5, MatioComplaints& complaints, std::vector<Message>& left_out) {
-    constexpr int kMostLost = 64;  // in a row; libmatio may report the last one forever
-    for (int lost = 0; lost < kMostLost; ++lost) {
+    constexpr int kMaxLost = 64;  // in a row; libmatio may report the last one forever
+    for (int lost = 0; lost < kMaxLost; ++lost) {
         MatVariable variable(Mat_VarReadNextInfo(mat));
         if (variable || !is_hdf5 || complaints.first().empty()) return variable;
         const Message how = Message("a variable that is damaged or stored in another file cannot be read");

@@ -112,7 +112,7 @@ void check_header(const matvar_t& variable, const std::string& name, std::size_t
         const ReadingMegabytes megabytes = megabytes_for_reading(file_bytes);
         throw EnvironmentError(
             "variable {} has {} values: reading it requires more than {} MB of memory, the limit for a file of {} MB",
-            name, significant(values, 6), megabytes.most, megabytes.of_file);
+            name, significant(values, 6), megabytes.limit, megabytes.of_file);
     }
     for (const matvar_t* part : parts_of(variable)) {
         if (part) check_header(*part, part->name ? name + "." + part->name : name + "{}", file_bytes, links, depth + 1);

@@ -15,7 +15,7 @@ constexpr std::size_t memory_for_reading(std::size_t file_bytes) {
 
 /// For messages about it.
 struct ReadingMegabytes {
-    std::size_t most, of_file;
+    std::size_t limit, of_file;
 };
 constexpr ReadingMegabytes megabytes_for_reading(std::size_t file_bytes) {
     constexpr std::size_t kMegabyte = std::size_t{1} << 20;

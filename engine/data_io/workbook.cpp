@@ -61,7 +61,7 @@ WorkbookParts unpacked(const std::string& file, const std::string& bytes) {
         ::archive_read_open_memory(zip.get(), bytes.data(), bytes.size()) != ARCHIVE_OK)
         fail_as_no_archive(file);
     WorkbookParts parts{file};
-    const std::size_t most = memory_for_reading(bytes.size()) / 2;
+    const std::size_t limit = memory_for_reading(bytes.size()) / 2;
     std::size_t total = 0;
     archive_entry* entry = nullptr;
     int result = ARCHIVE_OK;
@@ -75,7 +75,7 @@ WorkbookParts unpacked(const std::string& file, const std::string& bytes) {
         la_ssize_t size = 0;
         while ((size = ::archive_read_data(zip.get(), block, sizeof block)) > 0) {
             total += static_cast<std::size_t>(size);
-            if (total > most) throw EnvironmentError("{} is larger than {} MB when unpacked", file, most >> 20);
+            if (total > limit) throw EnvironmentError("{} is larger than {} MB when unpacked", file, limit >> 20);
             part.append(block, static_cast<std::size_t>(size));
         }
         if (size < 0) throw EnvironmentError("{} is damaged: one of its parts cannot be unpacked", file);
@@ -224,8 +224,8 @@ std::string number_or_text(const std::string& value) {
 
 class SheetReader {
   public:
-    SheetReader(const std::string& file, std::vector<std::string> texts, std::size_t most_bytes)
-        : file_(file), texts_(std::move(texts)), most_bytes_(most_bytes) {}
+    SheetReader(const std::string& file, std::vector<std::string> texts, std::size_t max_bytes)
+        : file_(file), texts_(std::move(texts)), max_bytes_(max_bytes) {}
 
     void add_row(const pugi::xml_node& row) {
         const std::string stated = attribute_of(row, "r");
@@ -252,14 +252,14 @@ class SheetReader {
             added.width = column + 1;
         }
         bytes_ += number - before + added.text.size();
-        if (bytes_ > most_bytes_) fail_large();
+        if (bytes_ > max_bytes_) fail_large();
     }
 
     /// Of all rows. Takes them out.
     std::string csv() {
         std::size_t width = 0;
         for (const Row& row : rows_) width = std::max(width, row.width);
-        if (bytes_ + width * rows_.size() > most_bytes_) fail_large();
+        if (bytes_ + width * rows_.size() > max_bytes_) fail_large();
         std::string text;
         std::size_t line = 1;
         for (Row& row : rows_) {
@@ -279,7 +279,7 @@ class SheetReader {
     };
 
     [[noreturn]] void fail_large() const {
-        throw EnvironmentError("{} has a sheet larger than {} MB", file_, most_bytes_ >> 20);
+        throw EnvironmentError("{} has a sheet larger than {} MB", file_, max_bytes_ >> 20);
     }
 
     std::size_t whole_number(const std::string& text) const {
@@ -315,7 +315,7 @@ class SheetReader {
 
     const std::string& file_;
     std::vector<std::string> texts_;
-    std::size_t most_bytes_, bytes_ = 0;  ///< of the sheet as text
+    std::size_t max_bytes_, bytes_ = 0;  ///< of the sheet as text
     std::vector<Row> rows_;
 };
 
@@ -362,7 +362,7 @@ SheetText read_sheet(const std::filesystem::path& file, const std::string& sheet
             return cbor_of(SheetOutcome{{},
                                         Message("{}: reading it requires more than {} MB of memory, the limit for a "
                                                 "file of {} MB; save the sheet as CSV",
-                                                name, megabytes.most, megabytes.of_file)});
+                                                name, megabytes.limit, megabytes.of_file)});
         }
     };
     const ChildResult result = run_guarded(read, limits);

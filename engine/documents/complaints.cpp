@@ -39,7 +39,7 @@ bool is_key_letter(char c) {
 }
 
 /// Whether the text at `at` is a whole name: @fig:a is not part of @fig:ab or @fig:a-b.
-bool stands_alone(std::string_view text, std::size_t at, std::size_t length) {
+bool is_whole_word(std::string_view text, std::size_t at, std::size_t length) {
     if (at > 0 && is_key_letter(text[at]) && is_key_letter(text[at - 1])) return false;
     if (!is_key_letter(text[at + length - 1])) return true;
     const std::string_view behind = text.substr(at + length);
@@ -54,7 +54,7 @@ int line_with(std::string_view text, const std::string& words, int occurrence, b
     for (const std::string_view line : lines_with_ends(text)) {
         ++number;
         std::size_t at = line.find(words);
-        while (alone && at != line.npos && !stands_alone(line, at, words.size())) at = line.find(words, at + 1);
+        while (alone && at != line.npos && !is_whole_word(line, at, words.size())) at = line.find(words, at + 1);
         if (at == line.npos) continue;
         found = number;
         if (--occurrence == 0) break;

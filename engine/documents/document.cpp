@@ -30,8 +30,8 @@ namespace fs = std::filesystem;
 /// the longest end of the text before the error that occurs in the source shows the line.
 Place origin_of_refusal(const LatexRefusal& refusal, const MarkdownText& markdown, const fs::path& file) {
     const std::string before = trimmed(refusal.text_before);
-    constexpr std::size_t kMaxLength = 60, kShortest = 5;
-    for (std::size_t length = std::min(kMaxLength, before.size()); length >= kShortest; --length) {
+    constexpr std::size_t kMaxLength = 60, kMinLength = 5;
+    for (std::size_t length = std::min(kMaxLength, before.size()); length >= kMinLength; --length) {
         const Place found = find_in(markdown, before.substr(before.size() - length), file);
         if (found.line > 0) return found;
     }

@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-constexpr int kMostPasses = 4;
+constexpr int kMaxPasses = 4;
 constexpr std::uint64_t kMemoryLimit = 1u << 30, kMaxFileBytes = 64u << 20;
 constexpr std::uint64_t kLualatexMemoryLimit = 4ull << 30;  // reading the Chinese, Arabic and other fonts of a class
 constexpr std::array kAuxiliaryFiles = {"main.aux", "main.out", "main.toc"};
@@ -176,7 +176,7 @@ class LatexRun {
         const bool has_contents = job_.body.find("\n\\tableofcontents\n") != std::string::npos;
         const KeptAuxiliaryFiles kept(job_, engine_);
         std::string before = references(job_.work_folder, has_contents), after;
-        for (int pass = 1; pass <= kMostPasses; ++pass) {
+        for (int pass = 1; pass <= kMaxPasses; ++pass) {
             // Where nothing is known of page counts and bookmarks there is another pass: the first writes no PDF.
             const bool draft = pass == 1 && before.empty();
             run_pass(pass, draft);
@@ -253,9 +253,11 @@ class LatexRun {
 
     /// LuaTeX's own language can access files and programs. Allowed formulas cannot access that language; the sandbox
     /// is the second barrier. A document that is made inside a sandbox cannot have another one.
-    bool is_boxed() const { return engine_.program == kLualatex.program && strongest_isolation() == Isolation::kFull; }
+    bool is_sandboxed() const {
+        return engine_.program == kLualatex.program && strongest_isolation() == Isolation::kFull;
+    }
 
-    ChildResult run_in_box(const ChildOptions& requested) const {
+    ChildResult run_sandboxed(const ChildOptions& requested) const {
         Sandbox sandbox(Isolation::kFull);
         sandbox.add_document_programs();
         const fs::path shared = fs::absolute(job_.layout.shared_templates);
@@ -272,7 +274,8 @@ class LatexRun {
 
     void run_pass(int pass, bool draft) const {
         const auto start = std::chrono::steady_clock::now();
-        const ChildResult run = is_boxed() ? run_in_box(command(draft)) : run_child(command(draft), engine_.package);
+        const ChildResult run =
+            is_sandboxed() ? run_sandboxed(command(draft)) : run_child(command(draft), engine_.package);
         note("latex pass " + std::to_string(pass), start);
         if (run.timed_out)
             throw LatexRefusal(Message("{} did not finish within two minutes and was stopped; shorten the document, or "

@@ -136,12 +136,12 @@ std::pair<double, double> Extent::padded(double margin) const {
     const double low = *low_, high = *high_;
     if (log_) {
         const double decades = std::log10(high) - std::log10(low);
-        const double room = decades < 1e-6 ? 0.5 : margin * decades;
-        return usable_range({low * std::pow(10.0, -room), high * std::pow(10.0, room)}, true);
+        const double padding = decades < 1e-6 ? 0.5 : margin * decades;
+        return usable_range({low * std::pow(10.0, -padding), high * std::pow(10.0, padding)}, true);
     }
     const double size = std::max(std::abs(low), std::abs(high));
-    const double room = high - low > 1e-9 * size ? margin * (high - low) : size > 0 ? 0.1 * size : 1.0;
-    return usable_range({low - room, high + room}, false);
+    const double padding = high - low > 1e-9 * size ? margin * (high - low) : size > 0 ? 0.1 * size : 1.0;
+    return usable_range({low - padding, high + padding}, false);
 }
 
 std::pair<double, double> usable_range(std::pair<double, double> range, bool log) {
@@ -149,8 +149,8 @@ std::pair<double, double> usable_range(std::pair<double, double> range, bool log
     double low = std::clamp(range.first, least, kMaxAxisEnd), high = std::clamp(range.second, least, kMaxAxisEnd);
     if (log && !(low < high)) (high > 1 ? low : high) = high > 1 ? high / 10 : high * 10;
     if (!log && !(high - low >= kMinSpan)) {
-        const double room = std::max(kMinSpan, 1e-9 * std::abs(high));
-        low -= room, high += room;
+        const double padding = std::max(kMinSpan, 1e-9 * std::abs(high));
+        low -= padding, high += padding;
     }
     return {low, high};
 }

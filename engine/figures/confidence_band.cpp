@@ -13,7 +13,8 @@ Message confidence_text(double level) {
     return Message("{} % confidence", significant(100 * level, 4));
 }
 
-void add_confidence_band(Panel& panel, std::size_t line, const Vector& half_width, double level, double most) {
+void add_confidence_band(Panel& panel, std::size_t line, const Vector& half_width, double level,
+                         double max_half_width) {
     const auto is_band = [](const Curve& curve) { return curve.style == CurveStyle::kBand; };
     const bool first = std::none_of(panel.curves.begin(), panel.curves.end(), is_band);
     const Curve& center = panel.curves[line];
@@ -23,7 +24,7 @@ void add_confidence_band(Panel& panel, std::size_t line, const Vector& half_widt
     band.color = center.color;
     band.dash = center.dash;
     const auto width =
-        (half_width.array() <= most).select(half_width.array(), std::numeric_limits<double>::quiet_NaN());
+        (half_width.array() <= max_half_width).select(half_width.array(), std::numeric_limits<double>::quiet_NaN());
     band.y = center.y.array() - width;
     band.y_upper = center.y.array() + width;
     if (!(band.y.array().isFinite() && band.y_upper.array().isFinite()).any()) return;
@@ -31,7 +32,7 @@ void add_confidence_band(Panel& panel, std::size_t line, const Vector& half_widt
     panel.curves.push_back(std::move(band));
 }
 
-void limit_to_readable(Panel& panel, std::size_t lines, double least_room) {
+void limit_to_readable(Panel& panel, std::size_t lines, double min_padding) {
     double low = std::numeric_limits<double>::infinity(), high = -low, band_low = low, band_high = high;
     for (std::size_t i = 0; i < panel.curves.size(); ++i) {
         const Curve& curve = panel.curves[i];
@@ -42,9 +43,9 @@ void limit_to_readable(Panel& panel, std::size_t lines, double least_room) {
             band_low = std::min(band_low, curve.y[k]), band_high = std::max(band_high, upper);
         }
     }
-    const double room = std::max(0.5 * (high - low), least_room);
-    if (band_low >= low - room && band_high <= high + room) return;
-    panel.y_range = {std::max(band_low, low - room), std::min(band_high, high + room)};
+    const double padding = std::max(0.5 * (high - low), min_padding);
+    if (band_low >= low - padding && band_high <= high + padding) return;
+    panel.y_range = {std::max(band_low, low - padding), std::min(band_high, high + padding)};
 }
 
 void fix_colors(Panel& panel) {

@@ -10,13 +10,14 @@ namespace dynlab::inline figures {
 Message confidence_text(double level);
 
 /// Adds the band value +- half width around the curve `line` of a panel, in its color. The first band of a panel is
-/// named in the legend. Samples without a width of at most `most` become gaps: what is not determined is no band.
+/// named in the legend. Samples without a width of at most `max_half_width` become gaps: what is not determined is no
+/// band.
 void add_confidence_band(Panel& panel, std::size_t line, const Vector& half_width, double level,
-                         double most = std::numeric_limits<double>::max());
+                         double max_half_width = std::numeric_limits<double>::max());
 
 /// If the uncertainty is large, the panel shows only the part of the bands that keeps its first `lines` curves
-/// readable: half their height, and at least `least_room`, beyond them.
-void limit_to_readable(Panel& panel, std::size_t lines, double least_room);
+/// readable: half their height, and at least `min_padding`, beyond them.
+void limit_to_readable(Panel& panel, std::size_t lines, double min_padding);
 
 /// Numbers on a phase axis every 15, 30, 45, 90 ... degrees, at least four of them, over at least 60 degrees.
 void choose_phase_axis(Panel& phase);

@@ -35,12 +35,12 @@ double widest_entry(const std::vector<LegendEntry>& entries) {
     return widest;
 }
 
-std::vector<LegendEntry> legend_entries(const Panel& panel, double room) {
+std::vector<LegendEntry> legend_entries(const Panel& panel, double available_width) {
     std::vector<LegendEntry> entries;
     for (std::size_t i = 0; i < panel.curves.size(); ++i)
         if (!panel.curves[i].label.empty()) {
             const FittedText text =
-                fit_line(message_text(panel.curves[i].label), room - kLegendSample - kGap, kTextSize);
+                fit_line(message_text(panel.curves[i].label), available_width - kLegendSample - kGap, kTextSize);
             entries.push_back({i, text.lines.front(), text.size, 0, 0});
         }
     return entries;
@@ -157,7 +157,7 @@ class LayoutWork {
         Margins margins;
         margins.left = kTickLength + kGap + panel.y.widest_label(kTickSize) + kGap + block_height(panel.y_label.text);
         margins.bottom = kTickLength + (panel.x_numbers ? kTickLine : 0) +
-                         std::max(block_height(panel.x_label.text), exponent_room(panel)) + kGap;
+                         std::max(block_height(panel.x_label.text), exponent_height(panel)) + kGap;
         margins.top = panel.y.exponent != 0 ? kTickLine + kGap : kGap;
         if (!panel.x.ticks.empty() && panel.x_numbers) {
             const Tick& last = panel.x.ticks.back();
@@ -171,7 +171,7 @@ class LayoutWork {
         margins.top += block_height(panel.title.text);
         return margins;
     }
-    static double exponent_room(const PanelLayout& panel) {
+    static double exponent_height(const PanelLayout& panel) {
         return panel.x_numbers && panel.x.exponent != 0 ? kTickLine : 0;
     }
 

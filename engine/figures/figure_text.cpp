@@ -13,7 +13,7 @@ namespace {
 
 using Level = TextPiece::Level;
 
-constexpr std::size_t kLongestText = 200;
+constexpr std::size_t kMaxTextLength = 200;
 constexpr double kScriptSize = 0.8;  // gnuplot's size of raised and lowered text
 
 char32_t printable(char32_t c) {
@@ -29,7 +29,7 @@ char32_t printable(char32_t c) {
 std::u32string decode(std::string_view bytes) {
     std::u32string text;
     while (!bytes.empty()) {
-        if (text.size() == kLongestText) return text + U'…';
+        if (text.size() == kMaxTextLength) return text + U'…';
         text += printable(next_character(bytes));
     }
     return text;

@@ -9,7 +9,7 @@
 namespace dynlab::inline figures {
 namespace {
 
-constexpr Index kMostBins = 200, kMostWanted = 100'000;
+constexpr Index kMaxBins = 200, kMaxRequestedBins = 100'000;
 
 void check_finite(const VectorView& values) {
     constexpr double kMaxValue = 1e300;  // differences of such values are numbers still
@@ -33,18 +33,18 @@ Index freedman_diaconis_bins(const VectorView& values) {
     const double width = 2 * (quantile_of_sorted(sorted, 0.75) - quantile_of_sorted(sorted, 0.25)) / std::cbrt(n);
     if (!(range > 0)) return 1;
     const double bins = width > 0 ? range / width : std::sqrt(n);
-    return static_cast<Index>(std::clamp(std::ceil(bins - 1e-9), 1.0, static_cast<double>(kMostBins)));
+    return static_cast<Index>(std::clamp(std::ceil(bins - 1e-9), 1.0, static_cast<double>(kMaxBins)));
 }
 
 HistogramBins histogram_bins(const VectorView& values, Index bins) {
     check_sample(values);
     if (bins < 1) throw InvalidArgument("a histogram needs at least one bin, not {}", bins);
-    if (bins > kMostWanted)
-        throw InvalidArgument("a histogram can have at most {} bins, but {} were requested", kMostWanted, bins);
+    if (bins > kMaxRequestedBins)
+        throw InvalidArgument("a histogram can have at most {} bins, but {} were requested", kMaxRequestedBins, bins);
     double low = values.minCoeff(), high = values.maxCoeff();
     if (!(low < high)) {
-        const double room = low == 0 ? 0.5 : std::max(0.05 * std::abs(low), 1e-290);
-        low -= room, high += room;
+        const double padding = low == 0 ? 0.5 : std::max(0.05 * std::abs(low), 1e-290);
+        low -= padding, high += padding;
     }
     return histogram_bins(values, Vector::LinSpaced(bins + 1, low, high));
 }

@@ -133,8 +133,8 @@ std::pair<double, double> bar_edges(const Vector& centers, Index i) {
         return std::isfinite(half) ? half : 0.5;
     };
     const double before = half_between(std::max<Index>(i - 1, 0)), after = half_between(std::min(i, last - 1));
-    const double most = std::numeric_limits<double>::max();
-    return {std::max(centers[i] - before, -most), std::min(centers[i] + after, most)};
+    const double largest = std::numeric_limits<double>::max();
+    return {std::max(centers[i] - before, -largest), std::min(centers[i] + after, largest)};
 }
 
 void choose_axes(const Panel& panel, double width, double height, Axis& x, Axis& y) {

@@ -17,7 +17,7 @@
 namespace dynlab::inline platform {
 namespace {
 
-constexpr char kBoxProgram[] = "bwrap";
+constexpr char kBubblewrapProgram[] = "bwrap";
 
 /// A process that outlives this program by a moment, to kill the groups that run then. `changes` has the leader of each
 /// that begins, and minus the leader of each that has ended.
@@ -39,7 +39,7 @@ constexpr char kBoxProgram[] = "bwrap";
 /// bubblewrap binds its inner process to the outer one late: if the outer one is killed earlier, as happens when this
 /// program is killed, the inner one stays forever. Another process must therefore kill the whole group. Returns the
 /// pipe that survive() reads.
-int changes_of_boxes() {
+int sandbox_changes() {
     static const Pipe changes = [] {
         Pipe pipe;
         if (::fork() == 0) survive(pipe.read_end.get());
@@ -56,7 +56,7 @@ void notify_change(int changes, pid_t change) {
 struct EndOfSandbox {
     pid_t leader = 0;  ///< 0: no sandbox
     ~EndOfSandbox() {
-        if (leader > 0) notify_change(changes_of_boxes(), -leader);
+        if (leader > 0) notify_change(sandbox_changes(), -leader);
     }
 };
 
@@ -113,7 +113,7 @@ Launch prepare_launch(const ChildOptions& options, const std::string& package) {
     Launch launch;
     launch.program = program_file(options.command.front(), package);
     launch.folder = options.folder.string();
-    if (options.command.front() == kBoxProgram) launch.changes = changes_of_boxes();
+    if (options.command.front() == kBubblewrapProgram) launch.changes = sandbox_changes();
     launch.arguments = options.command;
     launch.environment = merged_environment(options.environment);
     launch.argument_pointers = pointers_to(launch.arguments);
@@ -185,7 +185,7 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
 
 ChildResult run_child(const ChildOptions& options, const std::string& package) {
     const auto group = start(options, package);
-    const EndOfSandbox end{options.command.front() == kBoxProgram ? group->leader() : 0};
+    const EndOfSandbox end{options.command.front() == kBubblewrapProgram ? group->leader() : 0};
     return group->wait();
 }
 

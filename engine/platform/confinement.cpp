@@ -19,8 +19,8 @@ namespace {
 
 bool confined = false;
 
-void limit(int resource, rlim_t most) {
-    const rlimit both{most, most};
+void limit(int resource, rlim_t max_value) {
+    const rlimit both{max_value, max_value};
     if (::setrlimit(static_cast<__rlimit_resource>(resource), &both) != 0)
         throw EnvironmentError("cannot limit the resources of a script: {}", system_reason(errno));
 }

@@ -105,10 +105,10 @@ void limit_files(std::uint64_t bytes) {
     ::setrlimit(RLIMIT_FSIZE, &limit);
 }
 
-void limit_processor_time(std::chrono::milliseconds most) {
+void limit_processor_time(std::chrono::milliseconds max_time) {
     rlimit limit{};
     ::getrlimit(RLIMIT_CPU, &limit);
-    const auto seconds = static_cast<rlim_t>(std::chrono::ceil<std::chrono::seconds>(most).count());
+    const auto seconds = static_cast<rlim_t>(std::chrono::ceil<std::chrono::seconds>(max_time).count());
     limit.rlim_cur = std::min(seconds, limit.rlim_cur);
     limit.rlim_max = std::min(limit.rlim_cur + 1, limit.rlim_max);  // SIGKILL for who catches the signal
     ::setrlimit(RLIMIT_CPU, &limit);
@@ -174,10 +174,10 @@ bool ProcessGroup::processor_time_is_used_up() {
 }
 
 int ProcessGroup::milliseconds_to_poll() const {
-    const int longest = leader_exit_ ? kLookForInterruptEvery : kLookForExitEvery;
-    if (!deadline_) return longest;
+    const int max_wait = leader_exit_ ? kLookForInterruptEvery : kLookForExitEvery;
+    if (!deadline_) return max_wait;
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(*deadline_ - Clock::now()).count();
-    return static_cast<int>(std::clamp<long long>(left, 0, longest));
+    return static_cast<int>(std::clamp<long long>(left, 0, max_wait));
 }
 
 void ProcessGroup::collect(FileDescriptor& stream, std::string& text) {
@@ -189,9 +189,9 @@ void ProcessGroup::collect(FileDescriptor& stream, std::string& text) {
             stream.close();
             return;
         }
-        const std::uint64_t room = output_bytes_ - result_.output.size() - result_.error_output.size();
-        text.append(block, std::min<std::uint64_t>(static_cast<std::uint64_t>(count), room));
-        if (static_cast<std::uint64_t>(count) > room) {
+        const std::uint64_t remaining = output_bytes_ - result_.output.size() - result_.error_output.size();
+        text.append(block, std::min<std::uint64_t>(static_cast<std::uint64_t>(count), remaining));
+        if (static_cast<std::uint64_t>(count) > remaining) {
             result_.output_exceeded = true;
             stream.close();
         }

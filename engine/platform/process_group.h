@@ -33,7 +33,7 @@ pid_t start_bound_program(const std::string& program, std::vector<std::string> a
 
 void limit_memory(std::uint64_t bytes);  ///< address space of this process from now on
 /// Of this process and of each that it starts, rounded up to seconds; SIGXCPU ends it, and a lower limit stays.
-void limit_processor_time(std::chrono::milliseconds most);
+void limit_processor_time(std::chrono::milliseconds max_time);
 void limit_files(std::uint64_t bytes);  ///< the largest file it writes from now on; a lower limit stays
 
 /// The parent's side of a forked child that leads its own process group and writes into two pipes.

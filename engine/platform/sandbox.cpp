@@ -23,7 +23,7 @@ void append(Words& words, std::initializer_list<std::string> more) {
 /// run_child starts a session for the sandbox; all of its processes stay in the group that it leads, and end with it.
 /// The sandbox has a separate file system that contains /usr and nothing else of the machine. A caller with root rights
 /// has no more rights inside than other users: with root's rights, read-only mounts could be mounted again as writable.
-Words bare_box() {
+Words bare_sandbox() {
     Words words = {kBubblewrap,  "--unshare-all", "--die-with-parent",
                    "--clearenv", "--cap-drop",    "ALL",
                    "--ro-bind",  "/usr",          "/usr",
@@ -48,7 +48,7 @@ std::optional<Message> obstacle_to(Isolation level) {
     if (level == Isolation::kProcess) return {};
     if (!find_program(kBubblewrap))
         return Message("full isolation needs bubblewrap: run sudo apt install bubblewrap (or use --isolation process)");
-    Words words = bare_box();
+    Words words = bare_sandbox();
     words.push_back("/usr/bin/true");
     ChildOptions child;
     child.command = std::move(words);
@@ -131,7 +131,7 @@ ChildResult Sandbox::run(const Words& command, const fs::path& folder, const std
     }
     set("TMPDIR", kScratch);
     set("HOME", kScratch);
-    child.command = bare_box();
+    child.command = bare_sandbox();
     append(child.command, {"--size", std::to_string(limits.scratch_bytes), "--tmpfs", kScratch});
     for (const Mount& mount : mounts_)
         append(child.command, {mount.writable ? "--bind" : "--ro-bind", mount.outside.string(), mount.inside});

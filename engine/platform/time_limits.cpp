@@ -65,7 +65,7 @@ std::chrono::milliseconds processor_time_of_tree(pid_t root) {
 }
 
 TimeBudget::TimeBudget(const TimeLimits& limits)
-    : most_processor_time_(processor_time() + limits.processor), latest_(Clock::now() + limits.clock()) {}
+    : max_processor_time_(processor_time() + limits.processor), latest_(Clock::now() + limits.clock()) {}
 
 TimeLimit TimeBudget::reached() {
     if (const TimeLimit before = reached_; before != TimeLimit::kNone) return before;
@@ -74,7 +74,7 @@ TimeLimit TimeBudget::reached() {
     next_look_ = (now + kBetweenLooks).time_since_epoch().count();
     if (now > latest_)
         reached_ = TimeLimit::kClock;
-    else if (processor_time() > most_processor_time_)
+    else if (processor_time() > max_processor_time_)
         reached_ = TimeLimit::kProcessor;
     return reached_;
 }

@@ -35,7 +35,7 @@ class TimeBudget {
   private:
     using Clock = std::chrono::steady_clock;
 
-    std::chrono::nanoseconds most_processor_time_;  ///< as processor_time() counts
+    std::chrono::nanoseconds max_processor_time_;  ///< as processor_time() counts
     Clock::time_point latest_;
     std::atomic<Clock::rep> next_look_{0};
     std::atomic<TimeLimit> reached_{TimeLimit::kNone};

@@ -19,13 +19,13 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char kAboutToBe = '-', kNotOurs[] = "?";
-constexpr std::uintmax_t kMostLedgerBytes = 2u << 20;
+constexpr std::uintmax_t kMaxLedgerBytes = 2u << 20;
 constexpr std::size_t kLinesKept = 4000;
 
 /// The newest lines of a ledger that has grown too long.
 void shorten(const fs::path& ledger) {
     std::error_code none;
-    if (const auto bytes = fs::file_size(ledger, none); none || bytes < kMostLedgerBytes) return;
+    if (const auto bytes = fs::file_size(ledger, none); none || bytes < kMaxLedgerBytes) return;
     std::deque<std::string> lines;
     std::ifstream stream(ledger);
     for (std::string line; std::getline(stream, line);) {

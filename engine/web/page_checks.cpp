@@ -76,7 +76,7 @@ class CheckedWork {
         fs::create_directories(job_.hidden_folder);
     }
 
-    CheckedNews judged() {
+    CheckedNews checked() {
         ReadChecks read(job_, nullptr);
         if (read.error()) throw EnvironmentError(*read.error());
         const CheckResults listed = read.listed({});
@@ -116,23 +116,23 @@ class CheckedWork {
             if (order_.checks.find(plant.name) == std::string::npos) continue;
             for (const std::string& run : {std::string(kHiddenDataSets), plant.name}) {
                 if (run != kHiddenDataSets && !reruns.contains(run)) continue;
-                const PlantChoice choice{.specimen = drawn(plant.name), .seed = drawn(noise_of(plant.name, run))};
-                submission_.specimens[run][plant.name] = choice.specimen;
+                const PlantChoice choice{.variant_number = drawn(plant.name), .seed = drawn(noise_of(plant.name, run))};
+                submission_.specimens[run][plant.name] = choice.variant_number;
                 write_variant_data(plant.name, choice, place_of(plant.name, run));
             }
         }
         for (const std::string& plant : listed.rigs) {
             for (const std::string& run : {std::string(kHiddenDataSets), plant}) {
                 if (run != kHiddenDataSets && !reruns.contains(run)) continue;
-                const std::uint32_t specimen = drawn(plant);
-                const CheckResults made = read.listed({{plant, specimen, drawn(noise_of(plant, run))}});
+                const std::uint32_t variant_number = drawn(plant);
+                const CheckResults made = read.listed({{plant, variant_number, drawn(noise_of(plant, run))}});
                 if (made.error) throw EnvironmentError(*made.error);
                 VariableTable variables;
                 for (const auto& [name, values] : made.data_sets.at(0))
                     variables[name] = {
                         Vector(Eigen::Map<const Vector>(values.data(), static_cast<Index>(values.size())))};
                 write_mat_file(place_of(plant, run) / (plant + ".mat"), variables);
-                submission_.specimens[run][plant] = specimen;
+                submission_.specimens[run][plant] = variant_number;
             }
         }
     }
@@ -172,7 +172,7 @@ class CheckedWork {
 }  // namespace
 
 void try_checks_of_page(const ChecksOrder& order) {
-    send_json(json_of(CheckedWork(order).judged()));
+    send_json(json_of(CheckedWork(order).checked()));
 }
 
 void pack_of_page(const fs::path& folder, const fs::path& file) {

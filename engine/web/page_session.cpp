@@ -13,10 +13,10 @@
 namespace dynlab::inline web {
 namespace {
 
-constexpr std::uint64_t kMostKept = 64u << 20;  // bytes of results of long calls
+constexpr std::uint64_t kMaxKeptBytes = 64u << 20;  // bytes of results of long calls
 
 struct PageSession {
-    Cache cache{kMostKept};
+    Cache cache{kMaxKeptBytes};
     CallCache calls{cache};
     std::unique_ptr<RunEnvironment> world;
 };

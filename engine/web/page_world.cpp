@@ -15,7 +15,7 @@ EM_JS(void, dynlab_send_news, (const char* json), { Module.news(UTF8ToString(jso
 namespace dynlab::inline web {
 namespace {
 
-constexpr std::size_t kMostMemory = std::size_t{512} << 20;
+constexpr std::size_t kMaxPageMemory = std::size_t{512} << 20;
 
 /// What a change of which makes every part run again.
 std::string settings_of(const PercentScript& script, const PageRunOrder& order) {
@@ -30,7 +30,7 @@ RunOptions options_of(const CallCache& calls, const PercentScript& script, const
     options.out_folder = options.script_folder / "out";
     options.call_cache = const_cast<CallCache*>(&calls);
     options.stay_in_folder = true;
-    options.memory_limit_bytes = kMostMemory;
+    options.memory_limit_bytes = kMaxPageMemory;
     return options;
 }
 

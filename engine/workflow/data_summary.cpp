@@ -87,9 +87,9 @@ class DataLooker {
     void find_length() {
         std::map<Index, int> times;
         for (const LookedSignal& signal : signals_) ++times[signal.numbers.size()];
-        int most = 0;
+        int highest = 0;
         for (const auto& [length, count] : times)
-            if (count >= most) most = count, samples_ = length;
+            if (count >= highest) highest = count, samples_ = length;
     }
 
     std::string title() const {
@@ -146,17 +146,17 @@ class DataLooker {
     }
 
     void add_range(std::vector<std::string>& row, const Vector& numbers) const {
-        double least = INFINITY, most = -INFINITY, sum = 0;
+        double lowest = INFINITY, highest = -INFINITY, sum = 0;
         Index count = 0;
         for (const double number : numbers) {
             if (std::isnan(number)) continue;
-            least = std::min(least, number), most = std::max(most, number), sum += number, ++count;
+            lowest = std::min(lowest, number), highest = std::max(highest, number), sum += number, ++count;
         }
         const Index missing = numbers.size() - count;
         row.push_back(missing > 0 ? fmt::format("{}", missing) : "");
         if (count > 0)
             row.insert(row.end(),
-                       {short_number(least), short_number(most), short_number(sum / static_cast<double>(count))});
+                       {short_number(lowest), short_number(highest), short_number(sum / static_cast<double>(count))});
     }
 
     const std::optional<Clock>& clock() const { return data_.time.clock; }
@@ -235,12 +235,13 @@ class DataLooker {
         std::vector<double> xs, ys;
         for (Index k = 0; k < kMaxPointCount / 2; ++k) {
             const Index begin = k * y.size() / (kMaxPointCount / 2), end = (k + 1) * y.size() / (kMaxPointCount / 2);
-            Index least = begin, most = begin;
+            Index lowest = begin, highest = begin;
             for (Index i = begin; i < end; ++i) {
-                if (!(y[i] >= y[least])) least = i;
-                if (!(y[i] <= y[most])) most = i;
+                if (!(y[i] >= y[lowest])) lowest = i;
+                if (!(y[i] <= y[highest])) highest = i;
             }
-            for (const Index i : {std::min(least, most), std::max(least, most)}) xs.push_back(x[i]), ys.push_back(y[i]);
+            for (const Index i : {std::min(lowest, highest), std::max(lowest, highest)})
+                xs.push_back(x[i]), ys.push_back(y[i]);
         }
         curve.x = Eigen::Map<const Vector>(xs.data(), static_cast<Index>(xs.size()));
         curve.y = Eigen::Map<const Vector>(ys.data(), static_cast<Index>(ys.size()));

@@ -151,7 +151,7 @@ std::string Recording::loading(const std::string& variable) const {
 /// Missing samples are filled, as no estimator takes them: inputs are held, outputs interpolated. The script says so.
 std::string Recording::filled() const {
     std::string code;
-    const auto tell = [&](const std::vector<std::string>& names, bool input) {
+    const auto add_messages = [&](const std::vector<std::string>& names, bool input) {
         for (const std::string& name : names) {
             const Vector numbers = signal(name).numbers;
             const Index missing = numbers.array().isNaN().count();
@@ -167,7 +167,7 @@ std::string Recording::filled() const {
                                   name, missing, numbers.size()))));
         }
     };
-    tell(inputs_, true), tell(outputs_, false);
+    add_messages(inputs_, true), add_messages(outputs_, false);
     return code;
 }
 

@@ -62,7 +62,7 @@ void write_group_data(const std::vector<std::string>& data_sets, std::uint32_t g
         const std::string own =
             fmt::format(kOwnData, fmt::arg("name", name), fmt::arg("seed", group_seed), fmt::arg("key", kVariantKey));
         write_file_atomically(folder / name / kSourceFile, source + own);
-        write_variant_data(name, {.specimen = group_seed, .seed = group_seed}, folder / name);
+        write_variant_data(name, {.variant_number = group_seed, .seed = group_seed}, folder / name);
     }
 }
 

@@ -245,7 +245,7 @@ TEST_F(preview_page, takes_up_a_stream_that_was_cut_and_has_lost_nothing) {
     changed.replace(changed.find("x = 20"), 6, "x = 21");
     write(changed);
     EXPECT_FALSE(browser.becomes_true("document.getElementById('document').innerText.includes('x is 21')", 0.5));
-    line.mend();
+    line.restore();
     EXPECT_TRUE(shows(browser, "x is 21"));
     EXPECT_TRUE(browser.becomes_true("!document.getElementById('state').innerText.includes('no response')"));
 }

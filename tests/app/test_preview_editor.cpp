@@ -261,9 +261,9 @@ TEST_F(preview_editor, only_the_page_itself_may_ask) {
         foreign.erase("Origin");
         foreign.emplace("Origin", "http://example.org");
         EXPECT_EQ(status(foreign), 403) << path << " from another site";
-        httplib::Headers stranger = page.of_page();
-        stranger.erase("Cookie");
-        EXPECT_EQ(status(stranger), 403) << path << " without the cookie";
+        httplib::Headers without_cookie = page.of_page();
+        without_cookie.erase("Cookie");
+        EXPECT_EQ(status(without_cookie), 403) << path << " without the cookie";
         EXPECT_EQ(page.get(path)->status, 404) << path << " by GET";
     }
     // Until the user allows runs, the variables of the script are unknown, and no order runs the script.

@@ -25,14 +25,14 @@ TEST_F(preview_learning, questions_answer_and_stay_answered_while_the_document_c
     browser.open(preview.address());
     ASSERT_TRUE(browser.becomes_true("document.querySelectorAll('.option').length === 2"));
     browser.click(".option");
-    const std::string verdict = "document.querySelector('.verdict').innerText === 'Wrong. One is missing.'";
-    EXPECT_TRUE(browser.becomes_true(verdict));
+    const std::string feedback_shown = "document.querySelector('.verdict').innerText === 'Wrong. One is missing.'";
+    EXPECT_TRUE(browser.becomes_true(feedback_shown));
     EXPECT_EQ(browser.evaluate("return document.querySelectorAll('.chosen').length"), "0") << "no place was chosen";
     std::string changed = kQuestion;
     changed.replace(changed.find("Count them"), 10, "Count again");
     write(kHead + changed + kFirst);
     ASSERT_TRUE(browser.becomes_true("document.getElementById('document').innerHTML.includes('Count again')"));
-    EXPECT_TRUE(browser.becomes_true(verdict));
+    EXPECT_TRUE(browser.becomes_true(feedback_shown));
     browser.evaluate("document.querySelectorAll('.option')[1].click()");
     EXPECT_TRUE(browser.becomes_true("document.querySelectorAll('.verdict')[1].innerText === 'Right. Count again.'"));
 }

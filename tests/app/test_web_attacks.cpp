@@ -42,8 +42,8 @@ class web_attacks : public testing::Test {
         address.sin_family = AF_INET;
         address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
         address.sin_port = htons(static_cast<std::uint16_t>(server.port()));
-        const timeval longest{20, 0};
-        ::setsockopt(made.get(), SOL_SOCKET, SO_RCVTIMEO, &longest, sizeof longest);
+        const timeval timeout{20, 0};
+        ::setsockopt(made.get(), SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof timeout);
         if (::connect(made.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
             return FileDescriptor();
         return made;

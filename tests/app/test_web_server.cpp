@@ -25,7 +25,7 @@ using testing::Not;
 
 class web_server : public testing::Test {
   protected:
-    web_server() : server({.port = 0, .largest_body = 1000, .most_streams = 3}) {
+    web_server() : server({.port = 0, .largest_body = 1000, .max_streams = 3}) {
         server.on_get("/", [](const PageRequest&) { return PageReply{"the page"}; });
         server.on_get("/picture/*", [](const PageRequest& asked) { return PageReply{asked.path}; });
         server.on_get("/long", [](const PageRequest&) { return PageReply{std::string(300000, 'x')}; });

@@ -56,7 +56,7 @@ class Asker : public PageClient {
         ADD_FAILURE() << page().dump().substr(0, 2000);
         return false;
     }
-    bool tells(const std::string& words) const {
+    bool reports(const std::string& words) const {
         return becomes_true([&](const json& page) {
             return page.contains("error") &&
                    page["error"]["message"].get<std::string>().find(words) != std::string::npos;
@@ -92,16 +92,16 @@ TEST_F(workbench_attacks, a_script_that_is_too_long_is_refused_and_ends_nothing)
     const auto program = allowed("s.lua", kPrints);
     const Asker page(program->address());
     ASSERT_TRUE(page.prints("a", "2\n"));
-    const std::string most = "--" + std::string(kMaxSourceSize - 2, 'x');
-    EXPECT_EQ(page.write(most + "x")->status, kFailed);
+    const std::string largest_script = "--" + std::string(kMaxSourceSize - 2, 'x');
+    EXPECT_EQ(page.write(largest_script + "x")->status, kFailed);
     EXPECT_EQ(text_of("s.lua"), kPrints);
-    write("s.lua", most + "x");
-    ASSERT_TRUE(page.tells("4 MB"));
+    write("s.lua", largest_script + "x");
+    ASSERT_TRUE(page.reports("4 MB"));
     write("s.lua", "-- %% id=a\nprint(1 + 2)\n");
     ASSERT_TRUE(page.prints("a", "3\n"));
     EXPECT_FALSE(page.page().contains("error"));
-    EXPECT_EQ(page.write(most)->status, kOk) << "what fits can be read again";
-    EXPECT_EQ(text_of("s.lua"), most);
+    EXPECT_EQ(page.write(largest_script)->status, kOk) << "what fits can be read again";
+    EXPECT_EQ(text_of("s.lua"), largest_script);
     EXPECT_EQ(page.write(kPrints)->status, kOk) << "after one line of 4 MB";
     EXPECT_TRUE(page.prints("a", "2\n"));
 }
@@ -155,7 +155,7 @@ TEST_F(workbench_attacks, a_data_file_that_changes_goes_and_comes_is_noticed) {
     write("r.csv", simulated_data(80));
     EXPECT_TRUE(page.prints("a", "80\n"));
     fs::remove(file("r.csv"));
-    EXPECT_TRUE(page.tells("r.csv"));
+    EXPECT_TRUE(page.reports("r.csv"));
     write("r.csv", simulated_data(60));
     EXPECT_TRUE(page.prints("a", "60\n"));
 }
@@ -174,7 +174,7 @@ TEST_F(workbench_attacks, processes_that_are_killed_are_replaced_or_reported) {
     EXPECT_TRUE(page.prints("c", "2\n"));
     ::kill(all[1], SIGKILL);
     page.write(script + "print(3)\n");
-    EXPECT_TRUE(page.tells("restart dynlab"));
+    EXPECT_TRUE(page.reports("restart dynlab"));
     EXPECT_THAT(text_of("s.lua"), HasSubstr("print(3)"));
 }
 
@@ -217,7 +217,7 @@ TEST_F(workbench_attacks, what_is_refused_is_reported_in_the_script_s_language) 
         };
         expect(403, forbidden);
         page.post("/allow");
-        ASSERT_TRUE(page.tells(stops));
+        ASSERT_TRUE(page.reports(stops));
         expect(409, conflict);
         expect(409, stops);
     };

@@ -13,7 +13,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 /// In a page: a button by its words, the editor, and an edit as another tab orders it.
-const std::string kHands = R"(
+const std::string kPageHelpers = R"(
 const named = (words) => [...document.querySelectorAll('button')].find((one) => one.textContent.trim() === words && one.offsetParent);
 const mirror = document.querySelector('.CodeMirror').CodeMirror, plain = window.fetch;
 const atEnd = (text) => mirror.replaceRange(text, { line: mirror.lineCount(), ch: 0 });
@@ -33,7 +33,7 @@ class workbench_hands : public workbench_page {
         ASSERT_TRUE(is_ready(browser));
     }
     std::string evaluate(const std::string& script) {
-        return browser.evaluate("return (async () => {" + kHands + script + "})()");
+        return browser.evaluate("return (async () => {" + kPageHelpers + script + "})()");
     }
     /// Undoes one step.
     void undo() {

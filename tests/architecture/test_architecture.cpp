@@ -115,10 +115,10 @@ TEST(architecture, modules_include_only_modules_of_their_layer_named_before_them
         for (const fs::path& file : sources_below(kRoot / "engine" / layer)) {
             const fs::path below = fs::relative(file, kRoot / "engine" / layer);
             if (!below.has_parent_path()) continue;
-            const std::string room = below.begin()->string();
-            if (!places.contains(room)) offences.push_back(layer + "/" + room + " stands in no order");
+            const std::string module = below.begin()->string();
+            if (!places.contains(module)) offences.push_back(layer + "/" + module + " stands in no order");
             for (const std::string& included : matches(text_of(file), "#include \"" + layer + "/([a-z_]+)/"))
-                if (!places.contains(included) || !places.contains(room) || places.at(included) > places.at(room))
+                if (!places.contains(included) || !places.contains(module) || places.at(included) > places.at(module))
                     offences.push_back(place_of(file) + " includes " + included);
         }
     }
@@ -347,8 +347,8 @@ TEST(architecture, an_estimator_is_defined_in_the_file_of_its_name) {
 
 TEST(architecture, every_module_of_the_core_has_its_own_test) {
     std::vector<std::string> untested;
-    for (const char* room : {"statistics", "filters", "criteria", "fit", "estimators"}) {
-        for (const fs::path& file : files_below(kRoot / "engine/numerics" / room, {".cpp"})) {
+    for (const char* module : {"statistics", "filters", "criteria", "fit", "estimators"}) {
+        for (const fs::path& file : files_below(kRoot / "engine/numerics" / module, {".cpp"})) {
             const fs::path folder = fs::relative(file.parent_path(), kRoot / "engine/numerics");
             const fs::path test = kRoot / "tests/unit" / folder / ("test_" + file.filename().string());
             if (!fs::exists(test)) untested.push_back(place_of(file));

@@ -14,10 +14,10 @@ namespace {
 constexpr std::uint32_t kFirstAdviceSeed = 20'001;  // none that tests use
 constexpr int kDataSets = 30;
 
-using Judge = bool (*)(const Advice&, const test::CorpusKind&);
+using CriterionFunction = bool (*)(const Advice&, const test::CorpusKind&);
 
 /// Adds the row: the number of data sets of a kind with wrong issues. Prints these data sets.
-void count_wrong(const char* what, const test::CorpusKind& kind, Judge right, double bar, Report& report) {
+void count_wrong(const char* what, const test::CorpusKind& kind, CriterionFunction right, double bar, Report& report) {
     std::atomic<int> wrong = 0;
     tbb::parallel_for(0, kDataSets, [&](int i) {
         const std::uint32_t seed = kFirstAdviceSeed + static_cast<std::uint32_t>(i);

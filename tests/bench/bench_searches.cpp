@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint32_t kFirstSeed = 10'001;  // none that tests use
 constexpr int kSystems = 300, kIrregularSystems = 100;
-constexpr Index kLongestIrregular = 5000;
+constexpr Index kMaxIrregularSamples = 5000;
 constexpr double kSolved = 1.01;  // loss against that of the true system
 
 struct Count {
@@ -39,10 +39,11 @@ bool is_unstable(const Fit& fit) {
 using Method = std::function<Fit(const test::SearchCase&)>;
 
 /// Default settings, structure known. Systems that were not solved are printed.
-void count_unsolved(const char* method, int systems, Index longest, bool irregular, const Method& fit, Count& count) {
+void count_unsolved(const char* method, int systems, Index max_samples, bool irregular, const Method& fit,
+                    Count& count) {
     tbb::parallel_for(0, systems, [&](int i) {
         const std::uint32_t seed = kFirstSeed + static_cast<std::uint32_t>(i);
-        const test::SearchCase one = test::search_case(seed, longest, irregular);
+        const test::SearchCase one = test::search_case(seed, max_samples, irregular);
         if (std::string(method) == "procsrivc" && !one.process) return;
         ++count.tried;
         double ratio = kInfinity;
@@ -84,7 +85,7 @@ void measure_searches(Report& report) {
     add("tfrivc: systems not solved", "all", noisy.failed, noisy.tried, 1.0 / 204);
     count_unsolved("procsrivc", kSystems, 20'000, false, process, processes);
     add("procsrivc: systems not solved", "all", processes.failed, processes.tried, 1.0 / 97);
-    count_unsolved("irregular", kIrregularSystems, kLongestIrregular, true, transfer, irregular);
+    count_unsolved("irregular", kIrregularSystems, kMaxIrregularSamples, true, transfer, irregular);
     add("tfsrivc, irregular sampling: systems not solved", "all", irregular.failed, irregular.tried, 0.02);
 }
 

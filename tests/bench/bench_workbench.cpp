@@ -106,13 +106,13 @@ void measure_million(Report& report, Browser& browser) {
         browser.open(program.address());
         wait(browser, kPicture);
         picture_seconds.push_back(now() - started);
-        double most = 0;
+        double max_memory = 0;
         for (const double end = now() + 3; now() < end; std::this_thread::sleep_for(std::chrono::milliseconds(20)))
-            most = std::max(most, memory(program));
+            max_memory = std::max(max_memory, memory(program));
         if (i + 1 < kOpenings) continue;
         wait(browser, kRest);
         report.results.push_back({"workbench: memory with 10^6 samples (MB)", "150 MB", memory(program), 150, 1, 0});
-        report.results.push_back({"workbench: most, while advice looks at them (MB)", "150 MB", most, 150, 1, 0});
+        report.results.push_back({"workbench: most, while advice looks at them (MB)", "150 MB", max_memory, 150, 1, 0});
         const double drawn =
             drawings(browser, "record", "const panel = box.plot.panels[0]; box.plot.zoom(panel, [0.4, 0.5], null)",
                      "box.plot.move(panel, 0.01 * Math.sin(k / 20), 0)");

@@ -45,10 +45,10 @@ void expect_rules(const AllocationProblem& problem, const Allocation& allocation
 }
 
 int spread(const AllocationProblem& problem, const std::vector<int>& loads) {
-    int least = 1 << 20, most = 0;
+    int lowest = 1 << 20, highest = 0;
     for (int i = 0; i < problem.groups; ++i)
-        if (problem.active[i]) least = std::min(least, loads[i]), most = std::max(most, loads[i]);
-    return most - least;
+        if (problem.active[i]) lowest = std::min(lowest, loads[i]), highest = std::max(highest, loads[i]);
+    return highest - lowest;
 }
 
 // oracle: the rules, over 2,000 random courses with late-comers and drop-outs
@@ -88,8 +88,8 @@ TEST(allocation, keeps_its_rules_in_random_courses) {
         ASSERT_EQ(second.pairs, allocate_reviews(later, fixed_draw(seed)).pairs);
         const Loads after = loads_of(later, second);
         const int active = static_cast<int>(std::count(later.active.begin(), later.active.end(), true));
-        const bool room = active > 2 * problem.reviews + 1;
-        if (room && (spread(later, after.writes) > 1 || spread(later, after.gets) > 1)) {
+        const bool has_spare_reviewers = active > 2 * problem.reviews + 1;
+        if (has_spare_reviewers && (spread(later, after.writes) > 1 || spread(later, after.gets) > 1)) {
             ++unbalanced;
             ADD_FAILURE() << "course " << course << ": size " << size << " late " << late << " left " << left
                           << " reviews " << problem.reviews << " state " << state << " spreads "

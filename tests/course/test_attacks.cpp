@@ -55,7 +55,7 @@ void write_odd_submissions(const Workbench& work) {
 }
 
 /// What ends an attack. Where the address sanitizer makes everything several times as slow, it may be time.
-::testing::Matcher<std::string> tells(const char* words) {
+::testing::Matcher<std::string> has_reason(const char* words) {
 #ifdef __SANITIZE_ADDRESS__
     return ::testing::AnyOf(HasSubstr(words), HasSubstr("of processor time"));
 #else
@@ -88,7 +88,7 @@ int grade_attacks(GradingBench& bench, std::span<const Attack> attacks, std::siz
         EXPECT_EQ(GradingBench::score(result), attack.score) << attack.name << ": " << result.dump(1);
         const std::string reported =
             GradingBench::error_reason(result) + " " + result.at("tests").at(0).at("output").get<std::string>();
-        EXPECT_THAT(reported, tells(attack.reported)) << attack.name;
+        EXPECT_THAT(reported, has_reason(attack.reported)) << attack.name;
     }
     return graded.exit_code;
 }

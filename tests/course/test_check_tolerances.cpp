@@ -114,7 +114,7 @@ TEST_P(check_tolerances, are_neither_harsh_nor_lenient) {
     setup.lesson.folder = lesson_folder(lesson);
     std::vector<GradingRules::Work> works;
     for (const Way& way : kWays) works.push_back({way.name, moved_in_one(all, way.name), {}, ""});
-    const std::vector<Grade> grades = GradingRules(setup).judged(works);
+    const std::vector<Grade> grades = GradingRules(setup).grade_all(works);
     for (std::size_t k = 0; k < std::size(kWays); ++k)
         expect_fair_marks(grades.at(k), kWays[k].inside, untouched_checks(moves));
 }

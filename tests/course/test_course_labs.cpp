@@ -145,7 +145,7 @@ TEST(course_labs, marks_by_hand_replace_points_and_can_be_taken_back) {
     Transaction transaction(course.course().database());
     save_result(course.course(), {unreadable, {}, "f"}, course.at("2026-03-02 13:00"));
     transaction.commit();
-    EXPECT_EQ(most_points(course.course(), course.lab(), "*"), 10);
+    EXPECT_EQ(max_points_of(course.course(), course.lab(), "*"), 10);
     // A work that only its author could show has no version.
     course.mark({course.group(3), "", "*", 5, "shown at the desk"});
     EXPECT_EQ(course.earned(3), 5);

@@ -195,9 +195,10 @@ TEST(instructor_guides, a_course_with_reviews_and_its_corrections_run_as_printed
     ASSERT_EQ(blocks.size(), 2u);
     const Workbench work;
     const MadeUpCourse made_up(work);
-    const bool boxes = !obstacle_to(Isolation::kFull);
+    const bool sandboxed = !obstacle_to(Isolation::kFull);
     const auto run = [&](std::string command) {
-        if (!boxes && std::regex_search(command, std::regex(" (submit|collect) "))) command += " --isolation process";
+        if (!sandboxed && std::regex_search(command, std::regex(" (submit|collect) ")))
+            command += " --isolation process";
         const ChildResult result =
             in_shell(work, std::filesystem::exists(work.path("signals")) ? "signals" : "", command);
         const bool findings = command.find(" findings ") != std::string::npos;  // they are there: rules are broken

@@ -27,7 +27,7 @@ using testing::Not;
 namespace fs = std::filesystem;
 
 /// The texts of a checks.lua that students read.
-std::set<std::string> told_by(const std::string& checks) {
+std::set<std::string> texts_of_checks(const std::string& checks) {
     std::set<std::string> reported;
     const std::regex text(R"re((?:\b(?:say|hint|about|message)\s*=\s*|judge\()"((?:[^"\\]|\\.)*)")re");
     for (std::sregex_iterator at(checks.begin(), checks.end(), text), end; at != end; ++at)
@@ -40,7 +40,7 @@ TEST(lesson_catalogs, have_all_messages_of_lesson_checks_and_nothing_else) {
     for (const Lesson& lesson : lessons()) {
         if (!fs::exists(lesson.folder / "checks.lua")) continue;
         ++lessons_seen;
-        const std::set<std::string> reported = told_by(read_text(lesson.folder / "checks.lua"));
+        const std::set<std::string> reported = texts_of_checks(read_text(lesson.folder / "checks.lua"));
         EXPECT_GT(reported.size(), 20u);
         const Catalog authors(read_text(lesson.checks_in("fr")));
         for (const std::string& sentence : reported) EXPECT_NE(authors.translation(sentence), "") << sentence;
@@ -83,7 +83,8 @@ TEST_F(lesson_reader, names_file_and_line_of_a_catalog_that_cannot_be_read) {
 }
 
 /// Expects French texts for a folder of French work. Returns the ids of its issues.
-std::set<std::string> ids_told(const Workbench& bench, const FolderLimits& limits = {}, bool lesson_checks = false) {
+std::set<std::string> reported_ids(const Workbench& bench, const FolderLimits& limits = {},
+                                   bool lesson_checks = false) {
     CheckOptions check_options;
     check_options.lesson_checks = lesson_checks;
     const CheckResult result = check_folder(bench.path("mine"), DYNLAB_PROGRAM, check_options, limits);
@@ -104,13 +105,13 @@ void write_french_folder(const Workbench& bench, const std::string& script, cons
 TEST(findings_in_french, of_folders_are_french_throughout) {
     const Workbench bench;
     std::set<std::string> reported;
-    const auto tell = [&](const FolderLimits& limits = {}, bool lesson_checks = false) {
-        const std::set<std::string> ids = ids_told(bench, limits, lesson_checks);
+    const auto collect_ids = [&](const FolderLimits& limits = {}, bool lesson_checks = false) {
+        const std::set<std::string> ids = reported_ids(bench, limits, lesson_checks);
         EXPECT_FALSE(ids.empty());
         reported.insert(ids.begin(), ids.end());
     };
     bench.write("mine/notes.txt", "");
-    tell();
+    collect_ids();
     write_french_folder(bench,
                         "report.value('sum', 1)\n-- **Question 1.**\n-- VOTRE CODE ICI\n-- *Votre réponse :*\n"
                         "-- **Question 2.**\n-- VOTRE CODE ICI\n-- # Et\n-- VOTRE CODE ICI\n"
@@ -125,22 +126,22 @@ TEST(findings_in_french, of_folders_are_french_throughout) {
     bench.write("elsewhere.csv", "y\n1\n");
     fs::create_symlink(bench.path("elsewhere.csv"), bench.path("mine/values.csv"));
     bench.write("mine/report.pdf", "%PDF-1.4\n");
-    tell({}, true);
+    collect_ids({}, true);
     bench.shell("touch -d 2020-01-01 mine/report.pdf");
-    tell();
+    collect_ids();
     FolderLimits limits;
     limits.files = 2;
-    tell(limits);
+    collect_ids(limits);
     limits = {};
     limits.time.processor = std::chrono::seconds(1);
     write_french_folder(bench, "while true do end\n");
-    tell(limits);
+    collect_ids(limits);
     write_french_folder(bench, "local y = load('nosuch').y\n");
-    tell();
+    collect_ids();
     write_french_folder(bench, "local y = load('../elsewhere.csv').y\n");
-    tell();
+    collect_ids();
     write_french_folder(bench, "print(1)\n");  // the value has no entry: the text of the report stops it
-    tell();
+    collect_ids();
     EXPECT_THAT(reported,
                 testing::IsSupersetOf({"analysis-missing", "folder-too-large", "analysis-fails", "answer-open",
                                        "answer-missing", "not-shown", "members-missing", "pdf-outdated", "pdf-differs",

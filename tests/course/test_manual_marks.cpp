@@ -52,9 +52,9 @@ class MarkedClass {
     static Grade graded(const std::string& submission) {
         Grade grade;
         grade.submission = submission;
-        for (const auto& [id, most] : {std::pair("x", 4.0), std::pair("y", 6.0)}) {
+        for (const auto& [id, max_points] : {std::pair("x", 4.0), std::pair("y", 6.0)}) {
             CheckGrade check;
-            check.id = id, check.points = most, check.earned = 1;
+            check.id = id, check.points = max_points, check.earned = 1;
             grade.checks.push_back(check);
         }
         return grade;

@@ -58,7 +58,7 @@ void expect_full_marks(const GroupsOfLesson& groups, Workbench::Memory memory,
             work.runs.insert(works.front().submission.runs.begin(), works.front().submission.runs.end());
         works.push_back({fmt::format("seed {}", seed), std::move(work), group, log});
     }
-    for (const Grade& grade : rules.judged(works)) {
+    for (const Grade& grade : rules.grade_all(works)) {
         EXPECT_EQ(message_text(grade.error_reason), "") << grade.submission;
         for (const CheckGrade& check : grade.checks)
             EXPECT_TRUE(check.graded && check.earned == check.points)
@@ -131,7 +131,9 @@ TEST(own_records, truth_is_that_of_the_record_which_the_answers_came_from) {
         "check{id = 'refusals', test = function(a)\n"
         "  return says('give the data set', a) and says('answers', {}, 'suspension') and says('thrusters', a, "
         "'thrusters') end}\n";
-    const auto script = [](int specimen) { return kComputesGain + fmt::format("answer('specimen', {})\n", specimen); };
+    const auto script = [](int variant_number) {
+        return kComputesGain + fmt::format("answer('specimen', {})\n", variant_number);
+    };
     GradingBench bench("--   K: number\n--   specimen: number\n", checks, script(0));
     bench.submit_file("group-7", script(7));
     bench.submit_file("group-8", script(7));

@@ -44,9 +44,9 @@ TEST(peer_review, allots_mends_and_takes_reviews) {
     const std::string before = bench.dump();
     EXPECT_THAT(bench.course({"review", "assign", "--at", "2026-03-01 14:00"}).output, HasSubstr("0 new, 0 withdrawn"));
     EXPECT_EQ(bench.dump(), before);
-    const ChildResult stray =
+    const ChildResult unmatched =
         bench.submit_file("stray.pdf", small_pdf("x"), "2026-03-02 10:00", {"--from", "group-01"});
-    CourseBench::expect_done(stray);
+    CourseBench::expect_done(unmatched);
     bench.bench().write("r.pdf", small_pdf("a review"));
     const std::string report =
         bench.bench()
@@ -58,8 +58,8 @@ TEST(peer_review, allots_mends_and_takes_reviews) {
     CourseBench::expect_done(
         bench.course({"review", "collect", "r.pdf", "--from", "group-02", "--of", name, "--at", "2026-03-05 10:00"}));
     CourseBench::expect_done(bench.course({"drop", "group-02", "--reason", "ill"}));
-    const ChildResult mended = bench.course({"review", "assign", "--at", "2026-03-06 13:00"});
-    CourseBench::expect_done(mended);
+    const ChildResult repaired = bench.course({"review", "assign", "--at", "2026-03-06 13:00"});
+    CourseBench::expect_done(repaired);
     const std::string pairs = bench.course({"review", "pairs"}).output;
     EXPECT_THAT(pairs, ::testing::ContainsRegex("group-02 +" + name + ".* written"));
     EXPECT_THAT(bench.course({"status", "--at", "2026-03-06 14:00"}).output, HasSubstr("dropped out"));

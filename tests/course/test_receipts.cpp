@@ -108,20 +108,21 @@ TEST_F(receipts, of_another_course_are_refused) {
 
 // Oracle: what was done in the course since.
 TEST_F(receipts, that_are_shown_again_are_compared_with_what_came_after) {
-    const auto verdict = [&](const std::string& file) { return course_.course({"verify", file}).output; };
-    EXPECT_EQ(verdict("mine/r.txt"), "mine/r.txt: genuine\n");
+    const auto verify_output = [&](const std::string& file) { return course_.course({"verify", file}).output; };
+    EXPECT_EQ(verify_output("mine/r.txt"), "mine/r.txt: genuine\n");
     CourseBench::expect_done(course_.submit_file("group-02.pdf", small_pdf("two"), "2026-03-01 10:00"));
-    EXPECT_EQ(verdict("mine/r.txt"), "mine/r.txt: genuine\n");
+    EXPECT_EQ(verify_output("mine/r.txt"), "mine/r.txt: genuine\n");
     CourseBench::expect_done(course_.submit_file("group-01.pdf", small_pdf("newer"), "2026-03-01 11:00"));
-    EXPECT_THAT(verdict("mine/r.txt"), HasSubstr("genuine, but a newer version was submitted"));
+    EXPECT_THAT(verify_output("mine/r.txt"), HasSubstr("genuine, but a newer version was submitted"));
     CourseBench::expect_done(course_.course({"withdraw", "crane", "group-01", "--reason", "the wrong file"}));
-    EXPECT_THAT(verdict("k/receipts/crane/00003-group-01-first-report.txt"), HasSubstr("but the file was withdrawn"));
-    EXPECT_EQ(verdict("mine/r.txt"), "mine/r.txt: genuine\n");
+    EXPECT_THAT(verify_output("k/receipts/crane/00003-group-01-first-report.txt"),
+                HasSubstr("but the file was withdrawn"));
+    EXPECT_EQ(verify_output("mine/r.txt"), "mine/r.txt: genuine\n");
     CourseBench::expect_done(
         course_.course({"set-received", "crane", "group-01", "2026-03-01 12:30", "--reason", "it came by mail"}));
-    EXPECT_THAT(verdict("mine/r.txt"), HasSubstr("but the time was corrected"));
+    EXPECT_THAT(verify_output("mine/r.txt"), HasSubstr("but the time was corrected"));
     const std::string corrected = "k/receipts/crane/00001-group-01-first-report-corrected-1.txt";
-    EXPECT_EQ(verdict(corrected), corrected + ": genuine\n");
+    EXPECT_EQ(verify_output(corrected), corrected + ": genuine\n");
 }
 
 TEST_F(receipts, are_for_one_file) {

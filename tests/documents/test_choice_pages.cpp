@@ -52,7 +52,7 @@ class choice_pages : public DocumentTest {
         ASSERT_TRUE(browser.becomes_true("document.querySelectorAll('.option').length > 0"));
     }
     json value(const std::string& expression) { return json::parse(browser.evaluate("return " + expression)); }
-    std::string verdict(int option) {
+    std::string feedback(int option) {
         return value("document.querySelectorAll('.verdict')[" + std::to_string(option) + "].innerText");
     }
     void choose(int option) {
@@ -75,20 +75,20 @@ TEST_F(choice_pages, a_click_says_right_or_wrong_and_why) {
     EXPECT_EQ(value("document.querySelectorAll('.option').length"), 5);
     EXPECT_EQ(value("document.querySelector('main').innerText.includes('times 3')"), false) << "nothing is told before";
     choose(0);
-    EXPECT_EQ(verdict(0), "Wrong. That is 2 times 3.");
-    EXPECT_EQ(verdict(1), "");
+    EXPECT_EQ(feedback(0), "Wrong. That is 2 times 3.");
+    EXPECT_EQ(feedback(1), "");
     choose(1);
-    EXPECT_EQ(verdict(1), "Right. Three factors 2.");
+    EXPECT_EQ(feedback(1), "Right. Three factors 2.");
     EXPECT_EQ(value("document.querySelectorAll('em').length"), 1) << "words keep their looks";
     choose(4);
     choose(2);
-    EXPECT_EQ(verdict(4), "Wrong. One is left over.");
-    EXPECT_EQ(verdict(2), "Right. Two halves of one.");
-    EXPECT_EQ(verdict(3), "");
+    EXPECT_EQ(feedback(4), "Wrong. One is left over.");
+    EXPECT_EQ(feedback(2), "Right. Two halves of one.");
+    EXPECT_EQ(feedback(3), "");
     EXPECT_EQ(value("[...document.querySelectorAll('li.right')].map(li => li.dataset.place).join()"), "1,2");
     EXPECT_EQ(value("[...document.querySelectorAll('li.wrong')].map(li => li.dataset.place).join()"), "0,4");
     choose(4);  // taken back
-    EXPECT_EQ(verdict(4), "");
+    EXPECT_EQ(feedback(4), "");
     EXPECT_EQ(value("document.querySelectorAll('li.wrong').length"), 1);
 }
 
@@ -96,10 +96,10 @@ TEST_F(choice_pages, obey_the_keyboard_and_are_readable_by_screen_readers) {
     open("---\nlang: fr\n---\n" + std::string(kQuestions));
     browser.evaluate("document.querySelector('.option').focus()");
     press("\uE007");  // Enter
-    EXPECT_EQ(verdict(0), "Faux. That is 2 times 3.");
+    EXPECT_EQ(feedback(0), "Faux. That is 2 times 3.");
     press("\uE004");  // Tab
     press(" ");
-    EXPECT_EQ(verdict(1), "Juste. Three factors 2.");
+    EXPECT_EQ(feedback(1), "Juste. Three factors 2.");
     EXPECT_EQ(value("document.activeElement.getAttribute('aria-pressed')"), "true");
     EXPECT_EQ(value("document.querySelector('.verdict').getAttribute('aria-live')"), "polite");
 }
@@ -114,8 +114,8 @@ TEST_F(choice_pages, what_was_chosen_stays_where_a_page_sets_the_question_again)
         "const box = document.querySelector('div.choice'), fresh = document.createElement('div');"
         "fresh.innerHTML = " +
         html + "; box.replaceWith(fresh); dynlabChoices.enliven(fresh)");
-    EXPECT_EQ(verdict(0), "Wrong. That is 2 times 3.");
-    EXPECT_EQ(verdict(1), "");
+    EXPECT_EQ(feedback(0), "Wrong. That is 2 times 3.");
+    EXPECT_EQ(feedback(1), "");
 }
 
 TEST_F(choice_pages, without_scripts_the_answers_are_folded_and_paper_shows_none) {

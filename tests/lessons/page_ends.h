@@ -62,13 +62,13 @@ inline void expect_full_pages(const Workbench& bench, const std::string& file,
     for (std::size_t page = 0; page + 1 < ends.size(); ++page) {
         ASSERT_TRUE(std::getline(text, next, '\f')) << file;
         next = trimmed(next);
-        double most = 3;
+        double max_distance = 3;
         for (const std::string& title : section_titles) {
             const std::size_t at = next.find(title);
-            if (at < next.find('\n')) most = 30;
-            if (at != std::string::npos) most = std::max(most, 4.0);
+            if (at < next.find('\n')) max_distance = 30;
+            if (at != std::string::npos) max_distance = std::max(max_distance, 4.0);
         }
-        EXPECT_LE(ends[page], most) << file << ", page " << page + 1;
+        EXPECT_LE(ends[page], max_distance) << file << ", page " << page + 1;
     }
 }
 

@@ -73,20 +73,20 @@ TEST_F(group_data, are_found_again_for_an_edited_lesson) {
 }
 
 TEST_F(group_data, records_are_the_bytes_that_lua_saves) {
-    for (const Plant& rig : plant_catalog()) {
+    for (const Plant& plant : plant_catalog()) {
         const fs::path ours = path("ours"), theirs = path("theirs");
         fs::create_directories(ours);
         fs::create_directories(theirs);
-        write_variant_data(rig.name, {.specimen = 5, .seed = 6}, ours);
+        write_variant_data(plant.name, {.variant_number = 5, .seed = 6}, ours);
         RunOptions options;
         options.out_folder = theirs;
         GnuplotRenderer renderer;
         Runtime runtime(options, renderer);
-        const std::string file = rig.name + ".mat";
+        const std::string file = plant.name + ".mat";
         const RunRecord run = runtime.run_code(
-            "save_mat('" + file + "', rig('" + rig.name + "', {specimen = 5, seed = 6}), {digits = 7})", "made.lua");
+            "save_mat('" + file + "', rig('" + plant.name + "', {specimen = 5, seed = 6}), {digits = 7})", "made.lua");
         ASSERT_FALSE(run.error) << run.error->text();
-        EXPECT_TRUE(read_file(ours / file) == read_file(theirs / file)) << rig.name;
+        EXPECT_TRUE(read_file(ours / file) == read_file(theirs / file)) << plant.name;
     }
     EXPECT_THROW(write_variant_data("hairdryer", {}, path("ours")), InvalidArgument);
 }
@@ -94,7 +94,7 @@ TEST_F(group_data, records_are_the_bytes_that_lua_saves) {
 TEST_F(group_data, stand_in_the_copy_of_a_group_and_of_no_other) {
     const Lesson spelt = lesson("local name = 'suspension'\nlocal d = load(name)");
     make_student_copy(spelt, path("group"), 7);
-    write_variant_data("suspension", {.specimen = 7, .seed = 7}, path("."));
+    write_variant_data("suspension", {.variant_number = 7, .seed = 7}, path("."));
     EXPECT_TRUE(read_file(path("group/data/suspension/suspension.mat")) == read_file(path("suspension.mat")));
     EXPECT_FALSE(fs::exists(path("group/data/crane")));
     EXPECT_EQ(group_seed_of(path("group/data")), 7u);

@@ -49,7 +49,7 @@ std::size_t characters(const std::string& line) {
 
 // Oracle: as many characters of the code's type as a line of the page holds, counted in a PDF.
 TEST_P(lesson_pages, have_no_code_that_wraps) {
-    const std::size_t most = 84;
+    const std::size_t max_length = 84;
     std::ifstream file(script_of(GetParam()));
     bool printed = false;
     int number = 0;
@@ -57,7 +57,7 @@ TEST_P(lesson_pages, have_no_code_that_wraps) {
         ++number;
         if (line.starts_with("-- %%"))
             printed = line.find("[markdown]") == line.npos && line.find("echo=false") == line.npos;
-        EXPECT_TRUE(!printed || characters(line) <= most) << GetParam() << ":" << number << ": " << line;
+        EXPECT_TRUE(!printed || characters(line) <= max_length) << GetParam() << ":" << number << ": " << line;
     }
 }
 

@@ -350,15 +350,15 @@ TEST(lesson_03_crane_copy, has_the_sections_and_no_text_of_the_solution) {
 // Oracles: the simulator's parameters (thruster_truth, thruster_thrust), the bars of the assignment.
 TEST(lesson_05_thruster, finds_curve_and_delay_and_a_better_model_than_a_linear_one) {
     const nlohmann::json record = record_of_lesson("05_thruster");
-    const ThrusterParameters rig;
-    const ThrusterTruth truth = thruster_truth(rig);
+    const ThrusterParameters plant;
+    const ThrusterTruth truth = thruster_truth(plant);
 
-    EXPECT_NEAR(number(record, "rest_noise"), std::hypot(rig.noise_std, rig.resolution / std::sqrt(12.)),
-                4 * rig.noise_std / std::sqrt(2. * 1500));
-    EXPECT_NEAR(number(record, "rest_level"), rig.tare, 4 * rig.noise_std / std::sqrt(1500.));
-    EXPECT_NEAR(number(record, "ring_frequency"), rig.cell_frequency, 0.05 * rig.cell_frequency);
-    EXPECT_NEAR(number(record, "edge_forward"), rig.dead_band, 5);
-    EXPECT_NEAR(number(record, "edge_reverse"), -rig.dead_band, 5);
+    EXPECT_NEAR(number(record, "rest_noise"), std::hypot(plant.noise_std, plant.resolution / std::sqrt(12.)),
+                4 * plant.noise_std / std::sqrt(2. * 1500));
+    EXPECT_NEAR(number(record, "rest_level"), plant.tare, 4 * plant.noise_std / std::sqrt(1500.));
+    EXPECT_NEAR(number(record, "ring_frequency"), plant.cell_frequency, 0.05 * plant.cell_frequency);
+    EXPECT_NEAR(number(record, "edge_forward"), plant.dead_band, 5);
+    EXPECT_NEAR(number(record, "edge_reverse"), -plant.dead_band, 5);
     EXPECT_NEAR(number(record, "asymmetry"), -truth.forward_thrust / truth.reverse_thrust, 0.05);
     EXPECT_GT(number(record, "onset"), 1e3 * truth.delay) << "nothing answers before the delay";
     EXPECT_LT(number(record, "onset"), 1e3 * truth.delay + 15);

@@ -20,7 +20,7 @@ constexpr const char* kLesson = "01_process_models";
 
 /// The lesson on data of another exchanger and another suspension. Its two hundred repetitions use the common
 /// exchanger; two of them are enough.
-PercentScript on_specimen(int number) {
+PercentScript on_variant(int number) {
     static const std::regex loaded(R"re(\bload\("(heat_exchanger|suspension)"\))re"), repeated("\nlocal runs = 200\n");
     const std::filesystem::path file = lesson_folder(kLesson) / "lesson.lua";
     const std::string seed = std::to_string(number);
@@ -43,9 +43,9 @@ void expect_on_paper(const RunRecord& run, const std::string& name, double noise
     const Panel& paper = run.figures.at(name).figure->panels.at(0);
     ASSERT_TRUE(paper.y_range) << name;
     const auto& samples = paper.curves.at(0).y;
-    const auto [least, most] = std::minmax_element(samples.begin(), samples.end());
-    EXPECT_GE(*least, paper.y_range->first - noise) << name;
-    EXPECT_LE(*most, paper.y_range->second) << name;
+    const auto [lowest, highest] = std::minmax_element(samples.begin(), samples.end());
+    EXPECT_GE(*lowest, paper.y_range->first - noise) << name;
+    EXPECT_LE(*highest, paper.y_range->second) << name;
 }
 
 TEST(other_specimens, carry_lesson_1_to_its_end_and_keep_its_words_true) {
@@ -57,7 +57,7 @@ TEST(other_specimens, carry_lesson_1_to_its_end_and_keep_its_words_true) {
         options.script_folder = lesson_folder(kLesson);
         options.out_folder = out.path();
         Runtime runtime(options, renderer);
-        const RunRecord run = runtime.run(on_specimen(number));
+        const RunRecord run = runtime.run(on_variant(number));
         ASSERT_FALSE(run.error) << run.error->text();
         EXPECT_EQ(run.answers.size(), 6u);
         const auto exchanger = heat_exchanger_truth(heat_exchanger_variant(static_cast<std::uint32_t>(number)));

@@ -48,9 +48,9 @@ TEST(report_statements, crane_is_evaluated_by_repetitions_and_by_its_equations) 
     EXPECT_GT(number(record, "fit_theta"), number(record, "most_theta")) << "the text says that it was luck";
     EXPECT_NEAR(number(record, "true_swing"), swing_of_moving_trolley(), 5e-4);
     EXPECT_NEAR(number(record, "true_pendulum"), truth.natural_frequency, 5e-4);
-    const int swing_row = 6, pendulum_row = 7, most = 4;
-    EXPECT_LT(cell(record, "repetition", swing_row, most), swing_of_moving_trolley()) << "always too low";
-    EXPECT_LT(cell(record, "repetition", pendulum_row, most), truth.natural_frequency) << "always too low";
+    const int swing_row = 6, pendulum_row = 7, most_column = 4;
+    EXPECT_LT(cell(record, "repetition", swing_row, most_column), swing_of_moving_trolley()) << "always too low";
+    EXPECT_LT(cell(record, "repetition", pendulum_row, most_column), truth.natural_frequency) << "always too low";
 
     const int jointly = 3, scatter = 4, c1_row = 7;
     for (int row = 0; row < 9; ++row) {

@@ -98,10 +98,10 @@ Regression regression(const std::vector<Vector>& widths, const std::vector<Vecto
 /// Least of what remains at this delay, over lags about the one given (s).
 double least_left(const std::vector<Vector>& widths, const std::vector<Vector>& outputs, const Vector& edges,
                   double delay, double lag) {
-    double least = regression(widths, outputs, edges, delay, lag).left;
+    double smallest = regression(widths, outputs, edges, delay, lag).left;
     for (const double change : {-2e-3, -1e-3, 1e-3, 2e-3})
-        least = std::min(least, regression(widths, outputs, edges, delay, lag + change).left);
-    return least;
+        smallest = std::min(smallest, regression(widths, outputs, edges, delay, lag + change).left);
+    return smallest;
 }
 
 Vector edges_of(const std::string& shape) {
@@ -129,7 +129,7 @@ class thruster_statements : public testing::Test {
 nlohmann::json* thruster_statements::record_ = nullptr;
 
 TEST_F(thruster_statements, delays_and_lags_are_those_of_a_regression) {
-    const ThrusterParameters rig;
+    const ThrusterParameters plant;
     for (const std::string shape : {"sine", "square"}) {
         const DataSets data_sets(shape);
         const Vector edges = edges_of(shape);
@@ -154,12 +154,12 @@ TEST_F(thruster_statements, delays_and_lags_are_those_of_a_regression) {
             const Vector curve = output(best.levels);
             for (const int size : {100, 200, 300}) {
                 if (shape == "square") continue;
-                double most = 0;
+                double largest = 0;
                 for (Index i = 0; i < edges.size(); ++i)
                     if (std::abs(edges[i]) == size)
-                        most =
-                            std::max(most, std::abs(curve[i] / thruster_thrust(rig, rig.neutral + edges[i]) - 1) * 100);
-                EXPECT_NEAR(number("curve_off_" + kind + "_" + std::to_string(size)), most, 0.3);
+                        largest = std::max(
+                            largest, std::abs(curve[i] / thruster_thrust(plant, plant.neutral + edges[i]) - 1) * 100);
+                EXPECT_NEAR(number("curve_off_" + kind + "_" + std::to_string(size)), largest, 0.3);
             }
             const DataSets others(shape == "sine" ? "square" : "sine");
             std::vector<Vector> errors, swings;
@@ -181,12 +181,12 @@ TEST_F(thruster_statements, a_filter_on_one_side_becomes_a_part_of_the_delay) {
     std::vector<Vector> filtered;
     for (const Vector& thrust : data_sets.thrust) filtered.push_back(root(below_8_hz(thrust)));
     // The best delay by regression, lags on a grid.
-    double best = 0, least = INFINITY;
+    double best = 0, smallest = INFINITY;
     for (int ms = 26; ms <= 50; ms += 2)
         for (int lag = 50; lag <= 80; lag += 5) {
             const double left = regression(data_sets.width, filtered, edges, 1e-3 * ms, 1e-3 * lag).left;
-            if (left < least) {
-                least = left;
+            if (left < smallest) {
+                smallest = left;
                 best = ms;
             }
         }
@@ -197,18 +197,18 @@ TEST_F(thruster_statements, a_filter_on_one_side_becomes_a_part_of_the_delay) {
 TEST_F(thruster_statements, delays_differ_by_structure_and_two_are_near_the_truth) {
     const ThrusterTruth truth = thruster_truth({});
     int near = 0;
-    double least = INFINITY, most = 0;
+    double smallest = INFINITY, largest = 0;
     for (const std::string kind : {"linear", "hammerstein", "root"})
         for (const std::string shape : {"sine", "square"}) {
             const double delay = number("delay_" + kind + "_" + shape);
-            least = std::min(least, delay);
-            most = std::max(most, delay);
+            smallest = std::min(smallest, delay);
+            largest = std::max(largest, delay);
             if (std::abs(delay - 1e3 * truth.delay) < 1) ++near;
         }
     EXPECT_EQ(near, 2);
-    EXPECT_EQ(least, number("delay_linear_sine")) << "the text names the smallest";
-    EXPECT_EQ(most, number("delay_root_sine")) << "and the largest";
-    EXPECT_LT(number("delay_change"), (most - least) / 10) << "what is wrong is not noise";
+    EXPECT_EQ(smallest, number("delay_linear_sine")) << "the text names the smallest";
+    EXPECT_EQ(largest, number("delay_root_sine")) << "and the largest";
+    EXPECT_LT(number("delay_change"), (largest - smallest) / 10) << "what is wrong is not noise";
     EXPECT_NEAR(number("slow_lag"), 1e3 * truth.slow_time_constant, 0.5);
     EXPECT_NEAR(number("fast_lag"), 1e3 * truth.fast_time_constant, 0.5);
     EXPECT_LT(number("lag_root_sine"), number("slow_lag"));

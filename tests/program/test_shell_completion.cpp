@@ -29,10 +29,10 @@ std::vector<std::string> lines(const std::string& text) {
     return all;
 }
 
-/// Names of the folders of the project's `room` that hold such a file.
-std::vector<std::string> folders_with(const std::string& room, const std::string& file) {
+/// Names of the folders of the project's `folder` that hold such a file.
+std::vector<std::string> folders_with(const std::string& folder, const std::string& file) {
     std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(fs::path(DYNLAB_SOURCE_DIR) / room))
+    for (const auto& entry : fs::directory_iterator(fs::path(DYNLAB_SOURCE_DIR) / folder))
         if (fs::exists(entry.path() / file)) names.push_back(entry.path().filename());
     EXPECT_GE(names.size(), 5u);
     return names;

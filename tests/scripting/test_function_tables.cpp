@@ -87,8 +87,8 @@ TEST(function_tables, give_defaults_that_lua_reads) {
         ASSERT_EQ(luaL_dostring(L, ("return " + initial).c_str()), LUA_OK) << where << " = " << initial;
         const int type = type_of(option.kind);
         EXPECT_TRUE(type == LUA_TNONE || type == lua_type(L, -1)) << where << " = " << initial;
-        const double number = lua_type(L, -1) == LUA_TNUMBER ? lua_tonumber(L, -1) : option.facts.least;
-        EXPECT_TRUE(number >= option.facts.least && number <= option.facts.most) << where << " = " << initial;
+        const double number = lua_type(L, -1) == LUA_TNUMBER ? lua_tonumber(L, -1) : option.facts.minimum;
+        EXPECT_TRUE(number >= option.facts.minimum && number <= option.facts.maximum) << where << " = " << initial;
         lua_settop(L, 0);
     });
     EXPECT_GT(defaults, 30);

@@ -37,11 +37,11 @@ TEST(language_server, marks_mistakes_in_units_of_utf_16) {
     EXPECT_EQ(found.at("range").at("start"), json({{"line", 0}, {"character", 13}}));
     EXPECT_EQ(found.at("range").at("end"), json({{"line", 0}, {"character", 16}}));
     EXPECT_EQ(found.at("code"), "unknown-name");
-    const json mended =
+    const json fixed =
         ask(server, {{"jsonrpc", "2.0"},
                      {"method", "textDocument/didChange"},
                      {"params", {{"textDocument", {{"uri", kUri}}}, {"contentChanges", {{{"text", "print(1)"}}}}}}});
-    EXPECT_TRUE(mended.at("params").at("diagnostics").empty());
+    EXPECT_TRUE(fixed.at("params").at("diagnostics").empty());
 }
 
 TEST(language_server, answers_hover_completion_and_the_end) {

@@ -40,10 +40,10 @@ class memoized_calls : public testing::Test {
     };
     /// Runs a script with what earlier ones left. How long calls take differs from machine to machine: where it does
     /// not matter, all are kept.
-    Use run_with_cache(const std::string& code, CallCache::Duration shortest = CallCache::Duration::zero(),
+    Use run_with_cache(const std::string& code, CallCache::Duration min_duration = CallCache::Duration::zero(),
                        const std::string& language = "en") {
         const Cache cache;
-        CallCache calls(cache, shortest);
+        CallCache calls(cache, min_duration);
         RunOptions options;
         options.call_cache = &calls;
         const std::string printed = test::printed(kData + code, options, language);

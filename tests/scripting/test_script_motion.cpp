@@ -32,17 +32,17 @@ std::string page_of(const std::string& name) {
 
 TEST(script_motion, plants_are_made_of_the_shapes_of_documents) {
     for (const char* name : {"crane", "drifting_process", "drive", "thruster", "two_tanks"}) {
-        const PlantDrawing rig = plant_drawing(name);
+        const PlantDrawing plant = plant_drawing(name);
         const std::string page = page_of(name);
-        Vector drawn(static_cast<Index>(rig.parts.size()));
-        for (std::size_t k = 0; k < rig.parts.size(); ++k) drawn[static_cast<Index>(k)] = rig.parts[k].drawn_at;
+        Vector drawn(static_cast<Index>(plant.parts.size()));
+        for (std::size_t k = 0; k < plant.parts.size(); ++k) drawn[static_cast<Index>(k)] = plant.parts[k].drawn_at;
         std::size_t moving = 0;
-        for (const PlantShape& piece : rig.pieces) {
-            const PlantShape there = rig.placed(piece, drawn);
+        for (const PlantShape& piece : plant.pieces) {
+            const PlantShape there = plant.placed(piece, drawn);
             std::string points;
             for (std::size_t i = 0; i < there.x.size(); ++i)
                 points += fmt::format("{}{:.1f},{:.1f}", i ? " " : "", there.x[i] * 96 / 2.54,
-                                      (rig.height - there.y[i]) * 96 / 2.54);
+                                      (plant.height - there.y[i]) * 96 / 2.54);
             EXPECT_THAT(page, HasSubstr("\"" + points + "\"")) << name;
             moving += piece.moves();
         }

@@ -42,7 +42,7 @@ TEST(script_plants, static_curve_of_the_thruster_ends_at_its_greatest_thrusts) {
 
 TEST(script_plants, refuse_what_there_is_not) {
     std::string names;
-    for (const Plant& rig : plant_catalog()) names += (names.empty() ? "" : ", ") + rig.name;
+    for (const Plant& plant : plant_catalog()) names += (names.empty() ? "" : ", ") + plant.name;
     const std::string expected = "unknown simulated plant 'cranes'; the plants are " + names;
     EXPECT_NE(error_of("rig('cranes')").find(expected), std::string::npos) << error_of("rig('cranes')");
     EXPECT_NE(error_of("rig_truth('cranes')").find(expected), std::string::npos);
@@ -57,16 +57,16 @@ std::string point_of(const std::string& page, const std::string& head) {
 
 // oracle: the plant catalog, the fields of its true models and the names of its experiments
 TEST(script_plants, stand_in_the_help_pages) {
-    const std::string rig_page = page_text(*find_help_page("rig"), find_function("rig")),
+    const std::string plant_page = page_text(*find_help_page("rig"), find_function("rig")),
                       truth_page = page_text(*find_help_page("rig_truth"), find_function("rig_truth"));
-    for (const Plant& rig : plant_catalog()) {
-        EXPECT_NE(point_of(rig_page, "\n- `name`:").find('"' + rig.name + '"'), std::string::npos) << rig.name;
-        const std::string experiments = point_of(rig_page, "\n- `" + rig.name + "`: ");
-        for (const std::string& experiment : rig.experiments)
-            EXPECT_NE(experiments.find('`' + experiment + '`'), std::string::npos) << rig.name << ' ' << experiment;
-        const std::string truth = point_of(truth_page, "\n- `" + rig.name + "`: ");
-        for (const PlantValue& field : rig.truth(0))
-            EXPECT_NE(truth.find('`' + field.name + '`'), std::string::npos) << rig.name << ' ' << field.name;
+    for (const Plant& plant : plant_catalog()) {
+        EXPECT_NE(point_of(plant_page, "\n- `name`:").find('"' + plant.name + '"'), std::string::npos) << plant.name;
+        const std::string experiments = point_of(plant_page, "\n- `" + plant.name + "`: ");
+        for (const std::string& experiment : plant.experiments)
+            EXPECT_NE(experiments.find('`' + experiment + '`'), std::string::npos) << plant.name << ' ' << experiment;
+        const std::string truth = point_of(truth_page, "\n- `" + plant.name + "`: ");
+        for (const PlantValue& field : plant.truth(0))
+            EXPECT_NE(truth.find('`' + field.name + '`'), std::string::npos) << plant.name << ' ' << field.name;
     }
 }
 

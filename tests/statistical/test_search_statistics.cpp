@@ -51,16 +51,16 @@ TEST(search_statistics, drifting_noise_is_modeled_down_to_its_innovations) {
     stable.stable = true;
     PolynomialOrders orders = PolynomialOrders::output_error({2}, {2}, {1});
     orders.nc = orders.nd = 1;
-    const double most = innovations * (1 + 4 * std::sqrt(2 / static_cast<double>(u.size())));
+    const double max_variance = innovations * (1 + 4 * std::sqrt(2 / static_cast<double>(u.size())));
     for (std::uint32_t seed = 101; seed <= 108; ++seed) {
         RandomStream random(seed);
         const Vector walk = 0.05 * summed(random.normal(u.size())), white = 0.1 * random.normal(u.size());
         const IdData data(Matrix(x + walk + white), Matrix(u), 0.1);
-        EXPECT_LT(rivc(data, structure, {1, 1}).noise_variance[0], most) << seed;
-        EXPECT_LT(rivc(data, structure, {1, 1}, stable).noise_variance[0], most) << seed;
-        EXPECT_LT(bj(data, orders).noise_variance[0], most) << seed;
+        EXPECT_LT(rivc(data, structure, {1, 1}).noise_variance[0], max_variance) << seed;
+        EXPECT_LT(rivc(data, structure, {1, 1}, stable).noise_variance[0], max_variance) << seed;
+        EXPECT_LT(bj(data, orders).noise_variance[0], max_variance) << seed;
         if (seed % 4 == 0) {
-            EXPECT_LT(rivc(data, delayed, {1, 1}).noise_variance[0], most) << seed;
+            EXPECT_LT(rivc(data, delayed, {1, 1}).noise_variance[0], max_variance) << seed;
         }
     }
 }
@@ -83,11 +83,11 @@ TEST(search_statistics, drifting_noise_does_not_choose_the_start) {
             const double e = noise - level;
             squares += e * e, level += gain * e;
         }
-        const double most = squares / N * (1 + 12 / N);
+        const double max_variance = squares / N * (1 + 12 / N);
         const IdData data(Matrix(x + walk + white), Matrix(u), 0.1);
-        EXPECT_LT(rivc(data, structure, {1, 1}).noise_variance[0], most) << seed;
-        EXPECT_LT(rivc(data, delayed, {1, 1}).noise_variance[0], most) << seed;
-        EXPECT_LT(bj(data, orders).noise_variance[0], most) << seed;
+        EXPECT_LT(rivc(data, structure, {1, 1}).noise_variance[0], max_variance) << seed;
+        EXPECT_LT(rivc(data, delayed, {1, 1}).noise_variance[0], max_variance) << seed;
+        EXPECT_LT(bj(data, orders).noise_variance[0], max_variance) << seed;
     }
 }
 

@@ -20,7 +20,7 @@ class CutLine {
     /// Of a page of the server, by this line.
     std::string address(const std::string& of_server) const;
     void cut();  ///< ends all connections and takes no new ones
-    void mend() { cut_ = false; }
+    void restore() { cut_ = false; }
     std::size_t bytes_from_server() const { return bytes_from_server_; }
 
   private:

@@ -97,9 +97,9 @@ inline Vector search_input(SearchChance& chance, Index N, double Ts) {
     }
 }
 
-/// One to six poles, fewer zeros, a delay in two of three, sampled slowly to fast for its poles, 200 to `most` samples,
-/// 0 to 40 dB of white noise; from rest, without offset. `irregular`: instants at random distances.
-inline SearchCase search_case(std::uint32_t seed, Index most = 20'000, bool irregular = false) {
+/// One to six poles, fewer zeros, a delay in two of three, sampled slowly to fast for its poles, 200 to `max_samples`
+/// samples, 0 to 40 dB of white noise; from rest, without offset. `irregular`: instants at random distances.
+inline SearchCase search_case(std::uint32_t seed, Index max_samples = 20'000, bool irregular = false) {
     SearchChance chance(seed);
     SearchCase made;
     made.poles = 1 + static_cast<int>(seed % 6);
@@ -112,7 +112,7 @@ inline SearchCase search_case(std::uint32_t seed, Index most = 20'000, bool irre
     constexpr double kSpeeds[] = {0.1, 0.5, 2};  // radians of the fastest pole in a sample
     const double Ts = kSpeeds[chance.below(3)] / fastest;
     constexpr Index kLengths[] = {200, 500, 1000, 2000, 5000, 20'000};
-    const Index N = std::min(most, kLengths[chance.below(6)]);
+    const Index N = std::min(max_samples, kLengths[chance.below(6)]);
     made.delayed = chance.below(3) > 0;
     if (made.delayed) G = G.with_delay(std::min(chance.log_between(0.3, 30) * Ts, 0.15 * Ts * static_cast<double>(N)));
     made.G = G;

@@ -37,8 +37,9 @@ json InputHistory::found(const json& request) const {
         std::reverse(chosen.begin(), chosen.end());
     }
     const json requested = request.value("n", json());
-    const std::size_t most = requested.is_number_integer() ? std::max(requested.get<int>(), 0) : kMax;
-    if (kind != "range" && chosen.size() > most) chosen.erase(chosen.begin(), chosen.end() - static_cast<long>(most));
+    const std::size_t max_count = requested.is_number_integer() ? std::max(requested.get<int>(), 0) : kMax;
+    if (kind != "range" && chosen.size() > max_count)
+        chosen.erase(chosen.begin(), chosen.end() - static_cast<long>(max_count));
     json list = json::array();
     for (const Input* input : chosen) {
         const json code =

@@ -15,7 +15,7 @@ using nlohmann::json;
 
 constexpr const char* kProtocolVersion = "5.3";
 constexpr const char* kDelimiter = "<IDS|MSG>";
-constexpr std::size_t kMostRemembered = 1 << 16;  // signatures, as Jupyter's own clients keep them
+constexpr std::size_t kMaxStoredSignatures = 1 << 16;  // signatures, as Jupyter's own clients keep them
 constexpr int kMaxNesting = 100;
 constexpr std::size_t kPartsBehind = 5;  // signature, header, parent, metadata, content
 
@@ -68,7 +68,7 @@ void MessageWire::refuse_repetition(const std::string& signature) {
     const std::lock_guard lock(reading_);
     if (!read_.insert(signature).second) throw BadMessage("a message was received twice");
     order_.push_back(signature);
-    if (order_.size() <= kMostRemembered) return;
+    if (order_.size() <= kMaxStoredSignatures) return;
     read_.erase(order_.front());
     order_.pop_front();
 }

@@ -42,7 +42,7 @@ struct Head {
         message.msg_iov = &part;
         message.msg_iovlen = 1;
     }
-    void make_room() {
+    void attach_control_buffer() {
         message.msg_control = control;
         message.msg_controllen = sizeof control;
     }
@@ -61,7 +61,7 @@ bool Channel::send(const std::string& bytes, int file) {
     Head head;
     head.length = bytes.size();
     if (file >= 0) {
-        head.make_room();
+        head.attach_control_buffer();
         cmsghdr* const rights = CMSG_FIRSTHDR(&head.message);
         rights->cmsg_level = SOL_SOCKET;
         rights->cmsg_type = SCM_RIGHTS;
@@ -74,7 +74,7 @@ bool Channel::send(const std::string& bytes, int file) {
 
 std::optional<Channel::Message> Channel::receive() {
     Head head;
-    head.make_room();
+    head.attach_control_buffer();
     const ssize_t got =
         retry_interrupted([&] { return ::recvmsg(end_.get(), &head.message, MSG_CMSG_CLOEXEC | MSG_WAITALL); });
     if (got != sizeof head.length) return {};

@@ -13,7 +13,7 @@ namespace dynlab::inline app {
 namespace {
 
 /// Older ones are forgotten; their files stay where the prompt put them.
-constexpr std::size_t kMostFigures = 100;
+constexpr std::size_t kMaxFigures = 100;
 
 }  // namespace
 
@@ -59,7 +59,7 @@ void FigureViewer::show(const std::string& name, const Figure& figure) {
     {
         const std::lock_guard lock(mutex_);
         shown_.push_front({++count_, name, read_text(file), plot});
-        if (shown_.size() > kMostFigures) shown_.pop_back();
+        if (shown_.size() > kMaxFigures) shown_.pop_back();
     }
     server_.send("page", list());
 }

@@ -22,7 +22,7 @@ constexpr auto kQuiet = 30ms;
 /// Setting a page takes longer than most cells: those that are over by then are set with it.
 constexpr auto kShortRun = 100ms;
 /// A page from the cache runs after the reader has it: the run would otherwise take the processors from the browser.
-constexpr auto kRunAfterRecall = 1500ms;
+constexpr auto kRunAfterCacheHit = 1500ms;
 /// A page is kept for the next time when nothing has changed for so long: that takes disk and processor.
 constexpr auto kKeepAfter = 3s;
 /// How often Ctrl-C is looked for while nothing happens.
@@ -123,11 +123,11 @@ void LiveDocument::follow() {
             if (!is_ours(file)) continue;
             changed_.insert(file);
             last_change_ = Clock::now();
-            remember_.reset();
+            save_at_.reset();
         }
         if (!changed_.empty() && Clock::now() - last_change_ >= kQuiet) read_again(std::exchange(changed_, {}));
         if (first_run_ && Clock::now() >= *first_run_) or_complain([this] { run({}); });
-        if (remember_ && Clock::now() >= *remember_) save_page();
+        if (save_at_ && Clock::now() >= *save_at_) save_page();
         take_news();
     }
 }
@@ -138,10 +138,10 @@ void LiveDocument::wait_for_something() {
     Clock::time_point until = now + kLookForInterrupt;
     if (!changed_.empty()) until = std::min(until, last_change_ + kQuiet);
     if (page_is_old_ && runner_.running() && now < set_from_) until = std::min(until, set_from_);
-    for (const auto& instant : {first_run_, remember_})
+    for (const auto& instant : {first_run_, save_at_})
         if (instant) until = std::min(until, *instant);
-    const auto longest = std::chrono::ceil<std::chrono::milliseconds>(until - now).count();
-    ::poll(waiting, 3, std::max(0, static_cast<int>(longest)));
+    const auto max_wait = std::chrono::ceil<std::chrono::milliseconds>(until - now).count();
+    ::poll(waiting, 3, std::max(0, static_cast<int>(max_wait)));
 }
 
 void LiveDocument::take_orders() {
@@ -196,7 +196,7 @@ void LiveDocument::or_complain(const std::function<void()>& act) {
 
 /// Reads script and template again and runs what has changed.
 void LiveDocument::read_again(const std::set<fs::path>& changed, const RunPlace& place) {
-    remember_.reset();
+    save_at_.reset();
     or_complain([&] {
         const std::string before = request_ ? request_->script.source : "";
         request_ = read_();
@@ -220,7 +220,7 @@ void LiveDocument::read_again(const std::set<fs::path>& changed, const RunPlace&
         if (!changed.empty() || !request_->slider_values.empty()) page_is_from_cache_ = false;
         first_run_.reset();
         if (!std::exchange(opened_, true) && load_saved_page()) {
-            first_run_ = Clock::now() + kRunAfterRecall;
+            first_run_ = Clock::now() + kRunAfterCacheHit;
             return;
         }
         run(data, place);
@@ -330,7 +330,7 @@ void LiveDocument::watch_inputs() {
 
 void LiveDocument::set_page() {
     page_is_old_ = false;
-    remember_.reset();
+    save_at_.reset();
     if (!request_) return;
     try {
         page_is_unfinished_ =
@@ -345,7 +345,7 @@ void LiveDocument::set_page() {
         watch_inputs();
         if (!page_is_unfinished_) {
             page_.set_open_answers(missing_answers(request_->script, shown_));
-            if (request_->slider_values.empty()) remember_ = Clock::now() + kKeepAfter;
+            if (request_->slider_values.empty()) save_at_ = Clock::now() + kKeepAfter;
         }
     } catch (const DocumentError& error) {
         page_.complain({error.message()});
@@ -366,7 +366,7 @@ bool LiveDocument::load_saved_page() {
 
 /// Keeps the page for the next time, unless something has changed since it was set.
 void LiveDocument::save_page() {
-    if (!std::exchange(remember_, std::nullopt)) return;
+    if (!std::exchange(save_at_, std::nullopt)) return;
     for (const fs::path& file : watch_.changes()) {
         if (!is_ours(file)) continue;
         changed_.insert(file);

@@ -91,7 +91,7 @@ class LiveDocument {
     bool page_is_old_ = false;
     Clock::time_point set_from_;       ///< while a run is under way the page is not set before: its end may be near
     bool page_is_unfinished_ = false;  ///< it was set while the run was under way
-    std::optional<Clock::time_point> remember_;   ///< when the page is kept for the next time, where it is whole
+    std::optional<Clock::time_point> save_at_;    ///< when the page is kept for the next time, where it is whole
     bool opened_ = false;                         ///< a first run was allowed
     std::optional<Clock::time_point> first_run_;  ///< when it begins, where the page is that of a run before
     bool page_is_from_cache_ = false;  ///< it shows a run of before, and stays until this first run has ended

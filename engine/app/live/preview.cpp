@@ -141,7 +141,7 @@ class OnlyPreview {
         const auto key = EntranceKey::of_text(read_text(file_));
         return key ? std::optional(key->address()) : std::nullopt;
     }
-    void tell(const EntranceKey& key) const {
+    void store_key(const EntranceKey& key) const {
         std::ofstream(file_, std::ios::trunc)
             << key.text() << std::flush;  // not another file in its place: the lock is on this
     }
@@ -217,7 +217,7 @@ void preview(const PreviewOptions& options) {
     });
     server.on_late_visit([&] { options.opened(server.address(), Visit::kLate); });
     server.start();
-    only.tell(server.key());
+    only.store_key(server.key());
     options.opened(server.address(), Visit::kFirst);
     try {
         document.work();

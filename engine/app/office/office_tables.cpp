@@ -97,7 +97,7 @@ std::string OfficeViews::reviews(const std::string& assignment) {
     if (!chosen) return json_of(all);
     all.assignment = chosen->name;
     all.over = now > chosen->review_due.value_or(kNoDeadline) + chosen->grace;
-    for (const Criterion& one : chosen->criteria) all.criteria.push_back({one.name, one.most});
+    for (const Criterion& one : chosen->criteria) all.criteria.push_back({one.name, one.max_points});
     const Marks marks = course_marks(course_, *chosen, now);
     GivenPoints given = points_by_owner(*chosen, marks.given);
     std::map<std::int64_t, const ReviewMark*> reviewed;

@@ -136,8 +136,8 @@ bool Entrance::takes(const std::string& token) {
 bool Entrance::had_late_visit() {
     const std::lock_guard lock(mutex_);
     const std::int64_t time = now();
-    if (!std::exchange(late_visit_, false) || time < told_ + kNextNews) return false;
-    told_ = time;
+    if (!std::exchange(late_visit_, false) || time < last_report_ + kNextNews) return false;
+    last_report_ = time;
     return true;
 }
 

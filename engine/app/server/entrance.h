@@ -59,7 +59,7 @@ class Entrance {
     std::mutex mutex_;
     std::map<std::string, std::int64_t> used_;  ///< tokens, with the time from which on they are too old
     bool late_visit_ = false;
-    std::int64_t told_ = 0;
+    std::int64_t last_report_ = 0;
 };
 
 }  // namespace dynlab::inline app

@@ -12,9 +12,9 @@ void EventStreams::Stream::put(const std::string& text) {
     changed_.notify_one();
 }
 
-std::optional<std::string> EventStreams::Stream::take(std::chrono::milliseconds longest) {
+std::optional<std::string> EventStreams::Stream::take(std::chrono::milliseconds max_wait) {
     std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, longest, [&] { return over_ || !waiting_.empty(); });
+    changed_.wait_for(lock, max_wait, [&] { return over_ || !waiting_.empty(); });
     if (over_) return {};
     if (waiting_.empty()) return "";
     std::string next = std::move(waiting_.front());
@@ -31,7 +31,7 @@ void EventStreams::Stream::end() {
 
 std::shared_ptr<EventStreams::Stream> EventStreams::open() {
     const std::lock_guard lock(mutex_);
-    if (ended_ || streams_.size() >= most_) return nullptr;
+    if (ended_ || streams_.size() >= max_streams_) return nullptr;
     return *streams_.insert(std::make_shared<Stream>()).first;
 }
 

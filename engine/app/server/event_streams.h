@@ -14,7 +14,7 @@ namespace dynlab::inline app {
 class EventStreams {
   public:
     class Stream;
-    explicit EventStreams(std::size_t most) : most_(most) {}
+    explicit EventStreams(std::size_t max_streams) : max_streams_(max_streams) {}
 
     std::shared_ptr<Stream> open();  ///< nothing when there are as many as may be
     void close(const std::shared_ptr<Stream>& stream);
@@ -29,7 +29,7 @@ class EventStreams {
       public:
         void put(const std::string& text);
         /// Waits for what is next, so long at most; empty after that time, nothing when the stream is over.
-        std::optional<std::string> take(std::chrono::milliseconds longest);
+        std::optional<std::string> take(std::chrono::milliseconds max_wait);
         void end();
 
       private:
@@ -42,7 +42,7 @@ class EventStreams {
     };
 
   private:
-    const std::size_t most_;
+    const std::size_t max_streams_;
     mutable std::mutex mutex_;
     std::set<std::shared_ptr<Stream>> streams_;
     bool ended_ = false;

@@ -22,9 +22,9 @@ using std::chrono::steady_clock;
 /// Browsers open connections before they ask, and a file whose connection was closed until then is one that the page
 /// lacks.
 constexpr auto kIdle = 10s, kWholeHead = 10s, kPartOfBody = 10s, kPartOfReply = 10s;
-constexpr std::size_t kMaxHeadBytes = std::size_t{64} << 10, kMostFields = 100;
+constexpr std::size_t kMaxHeadBytes = std::size_t{64} << 10, kMaxFields = 100;
 constexpr auto kLastBytes = 1s;  // for what a refused request still sends
-constexpr std::size_t kMostLastBytes = std::size_t{16} << 20;
+constexpr std::size_t kMaxLastBytes = std::size_t{16} << 20;
 
 LastReply refusal(int status, const char* text) {
     return {{status, kPlainText, text}};
@@ -82,7 +82,7 @@ RequestHead head_of(const HeadParser& parser) {
         std::transform(name.begin(), name.end(), name.begin(),
                        [](char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
         head.fields.emplace(std::move(name), std::string(field.value()));
-        if (head.fields.size() > kMostFields) throw refusal(431, "The request has too many fields.");
+        if (head.fields.size() > kMaxFields) throw refusal(431, "The request has too many fields.");
     }
     head.keeps_alive = parser.keep_alive();
     if (!parser.chunked()) head.body = parser.content_length() ? static_cast<std::size_t>(*parser.content_length()) : 0;
@@ -186,7 +186,7 @@ bool HttpConnection::is_open() const {
 void HttpConnection::close() {
     ::shutdown(socket_.get(), SHUT_WR);
     const auto until = steady_clock::now() + kLastBytes;
-    for (std::size_t read = 0; read < kMostLastBytes; read += unread_.size()) {
+    for (std::size_t read = 0; read < kMaxLastBytes; read += unread_.size()) {
         unread_.clear();
         if (!read_more(until)) break;
     }

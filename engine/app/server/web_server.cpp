@@ -37,7 +37,7 @@ class WebServer::Work {
   public:
     explicit Work(Options options)
         : options_(options),
-          streams_(static_cast<std::size_t>(options.most_streams)),
+          streams_(static_cast<std::size_t>(options.max_streams)),
           connections_(options.port),
           entrance_(connections_.port()) {}
 
@@ -48,7 +48,7 @@ class WebServer::Work {
 
     void start() {
         connections_.start([this](HttpConnection& connection, const auto& known) { serve(connection, known); },
-                           {.known = options_.most_streams + kConnectionsForRequests}, kFields);
+                           {.known = options_.max_streams + kConnectionsForRequests}, kFields);
     }
 
     const Options options_;

@@ -39,7 +39,7 @@ class WebServer {
     struct Options {
         int port = 0;  ///< any free one
         std::size_t largest_body = std::size_t{8} << 20;
-        int most_streams = 24;
+        int max_streams = 24;
         std::function<std::string(const Message&)> translated =
             {};  ///< text of a message for the reader; English without
     };

@@ -99,7 +99,7 @@ class Columns {
                 column.role = sounds_like(own, kInputs) ? "input" : sounds_like(own, kOutputs) ? "output" : "";
         }
         for (const std::string& name : texts_) columns.push_back({name, "", "", 0, 0, "text", false});
-        if (guessed.empty()) guess_rest(columns);
+        if (guessed.empty()) assign_remaining_roles(columns);
         return columns;
     }
 
@@ -142,9 +142,9 @@ class Columns {
         for (const Signal& signal : signals_)
             if (signal.group == group && signal.numbers.size() > 1) ++times[signal.numbers.size()];
         Index samples = 0;
-        int most = 0;
+        int max_count = 0;
         for (const auto& [length, count] : times)
-            if (count >= most) most = count, samples = length;
+            if (count >= max_count) max_count = count, samples = length;
         return samples;
     }
 
@@ -159,7 +159,7 @@ class Columns {
 
     /// Assigns roles if the names show none: a clock may come first; of the other columns the first is the input, the
     /// last the output.
-    void guess_rest(std::vector<DataColumn>& columns) const {
+    void assign_remaining_roles(std::vector<DataColumn>& columns) const {
         const auto none = [&](const char* role) {
             return std::ranges::none_of(columns, [&](const DataColumn& column) { return column.role == role; });
         };
@@ -189,9 +189,9 @@ std::string in_one_line(std::string text) {
 
 }  // namespace
 
-DataChoice describe_data(const std::string& data, bool tells) {
+DataChoice describe_data(const std::string& data, bool with_summary) {
     const LoadedData loaded = load_data(data, ".");
-    return {data, Columns(loaded).offered(), tells ? summarize_data(data, {}).text : ""};
+    return {data, Columns(loaded).offered(), with_summary ? summarize_data(data, {}).text : ""};
 }
 
 std::string loading_lines(const DataSelection& order) {

@@ -27,7 +27,7 @@ DYNLAB_DESCRIBE(DataChoice, data, columns, look)
 
 /// Summarizes `data`, a file or a data set. With false as the second argument, `look` stays empty. Throws
 /// EnvironmentError as load_data() does.
-DataChoice describe_data(const std::string& data, bool tells = true);
+DataChoice describe_data(const std::string& data, bool with_summary = true);
 
 /// What was chosen of it.
 struct DataSelection {

@@ -71,12 +71,12 @@ void SessionText::take_from_file() {
 
 void SessionText::wait_for_editor() const {
     constexpr auto kPause = std::chrono::milliseconds(5);
-    constexpr int kMostPauses = 60;
+    constexpr int kMaxPauses = 60;
     const auto is_emptied = [this] {
         std::error_code missing;
         return !saved_.empty() && std::filesystem::file_size(file_, missing) == 0 && !missing;
     };
-    for (int pause = 0; pause < kMostPauses && is_emptied(); ++pause) std::this_thread::sleep_for(kPause);
+    for (int pause = 0; pause < kMaxPauses && is_emptied(); ++pause) std::this_thread::sleep_for(kPause);
 }
 
 void SessionText::change(std::string text, bool goes_on) {

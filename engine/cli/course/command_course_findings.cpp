@@ -23,7 +23,8 @@ std::string stage_in_words(const std::string& stage) {
 
 /// Reports whether anonymized copies for others are missing. The anonymity check runs when such copies are made, so the
 /// findings do not contain its results.
-void tell_of_copies(Course& course, const Assignment& assignment, const Group& group, const FindingsArguments& args) {
+void report_missing_copies(Course& course, const Assignment& assignment, const Group& group,
+                           const FindingsArguments& args) {
     if (!assignment.is_report() || args.stage == "final" || args.version) return;
     const bool reviews = args.stage == "review";
     bool others = false, missing = false;
@@ -58,7 +59,7 @@ int show_findings(const CourseArguments& where, const FindingsArguments& args) {
         std::cout << (one.result ? issues_as_text(*one.result, in_color()) : "not checked\n") << '\n';
         passed = passed && (!one.result || one.result->passed());
     }
-    tell_of_copies(course, assignment, group, args);
+    report_missing_copies(course, assignment, group, args);
     return passed ? kDone : kFailed;
 }
 

@@ -73,7 +73,7 @@ std::string percent(const FinalMark& mark) {
 }
 
 /// What was taken off marks, and criteria that were forgotten: a mark without them is of the others only.
-void tell_costs_and_gaps(Course& course, const Assignment& a, const Marks& all) {
+void print_penalties_and_gaps(Course& course, const Assignment& a, const Marks& all) {
     for (const Group& group : groups_of(course))
         for (const GroupMark& mark : all.groups) {
             if (mark.group != group.id) continue;
@@ -106,11 +106,11 @@ void tell_costs_and_gaps(Course& course, const Assignment& a, const Marks& all) 
 }
 
 /// Prints students with individual points, and the comments of the oral.
-void tell_students_and_comments(Course& course, const Assignment& a, const Marks& all) {
+void print_students_and_comments(Course& course, const Assignment& a, const Marks& all) {
     std::map<std::string, std::string> names;
     for (const Student& student : students_of(course)) names[student.id] = student.name;
     std::vector<std::string> header = {"group", "student", "name"};
-    for (const Criterion& c : a.criteria) header.push_back(fmt::format("{} /{}", c.name, c.most));
+    for (const Criterion& c : a.criteria) header.push_back(fmt::format("{} /{}", c.name, c.max_points));
     header.emplace_back("work %");
     std::vector<std::vector<std::string>> rows;
     OralComments said = oral_comments(course, a);
@@ -155,7 +155,7 @@ int marks(const CourseArguments& where, const MarkArguments& args) {
     if (a.is_lab()) return show_lab_marks(course, a);
     const Marks all = course_marks(course, a, time_of(course, args.at));
     std::vector<std::string> header = {"group"};
-    for (const Criterion& c : a.criteria) header.push_back(fmt::format("{} /{}", c.name, c.most));
+    for (const Criterion& c : a.criteria) header.push_back(fmt::format("{} /{}", c.name, c.max_points));
     header.insert(header.end(), {"work %", "reviews %"});
     std::vector<std::vector<std::string>> rows;
     for (const Group& group : groups_of(course))
@@ -168,7 +168,7 @@ int marks(const CourseArguments& where, const MarkArguments& args) {
             rows.push_back(row);
         }
     std::cout << terminal_text(aligned_table(header, rows));
-    tell_costs_and_gaps(course, a, all);
+    print_penalties_and_gaps(course, a, all);
     for (const ReviewPair& pair : review_pairs(course, a))
         for (const ReviewMark& mark : all.reviews)
             if (mark.pair == pair.id && mark.outlier)
@@ -177,7 +177,7 @@ int marks(const CourseArguments& where, const MarkArguments& args) {
                     pair.reviewer_name,
                     mark.retaliation ? fmt::format("; {} had given {} few points", pair.author_name, pair.reviewer_name)
                                      : ""));
-    if (!a.is_report()) tell_students_and_comments(course, a, all);
+    if (!a.is_report()) print_students_and_comments(course, a, all);
     return kDone;
 }
 

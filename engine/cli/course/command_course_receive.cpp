@@ -118,10 +118,10 @@ bool confirm_penalties(Course& course, const ReceiveOutcome& outcome, bool accep
 /// A file that was not taken, by its name or the beginning of its SHA-256, as a file again.
 fs::path file_not_taken(Course& course, const Assignment& assignment, const std::string& name, const fs::path& folder,
                         Instant& at) {
-    constexpr std::size_t kShortest = 8;  // digits
+    constexpr std::size_t kMinDigits = 8;  // digits
     std::vector<FileNotTaken> found = files_not_taken(course, assignment);
     std::erase_if(found, [&](const FileNotTaken& one) {
-        return one.name != name && (name.size() < kShortest || !one.hash.starts_with(name));
+        return one.name != name && (name.size() < kMinDigits || !one.hash.starts_with(name));
     });
     if (found.size() != 1)
         throw found.empty()
@@ -232,9 +232,9 @@ int verify_course(const CourseArguments& where, const std::vector<std::string>& 
     Course course(where.folder);
     bool well = true;
     for (const std::string& file : receipts) {
-        const ReceiptCheck verdict = verify_receipt(read_file(file), course);
-        std::cout << terminal_text(fmt::format("{}: {}\n", file, verdict.reason));
-        well = well && verdict.genuine;
+        const ReceiptCheck receipt_check = verify_receipt(read_file(file), course);
+        std::cout << terminal_text(fmt::format("{}: {}\n", file, receipt_check.reason));
+        well = well && receipt_check.genuine;
     }
     if (receipts.empty()) {
         const StoreCheck check = check_store(course);

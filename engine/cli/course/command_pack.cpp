@@ -44,7 +44,7 @@ bool is_draft(const fs::path& pdf) {
 }
 
 /// A report that was not made, or not made again after a change, is easily forgotten: people read the PDF.
-void tell_of_report(const fs::path& folder, const std::string& subject) {
+void complain_about_report(const fs::path& folder, const std::string& subject) {
     if (!fs::exists(folder / "report.md")) return;
     std::optional<fs::file_time_type> made;
     for (const auto& entry : fs::directory_iterator(folder)) {
@@ -81,7 +81,7 @@ int pack(const PackArguments& words) {
     for (const std::string& name : pack.left_out) complain(Message("{} is not a regular file and was left out", name));
     const Message files = plural(static_cast<std::int64_t>(pack.files.size()), "{} file", "{} files");
     say(Message("{}: {}, SHA-256 {}", file.string(), files, pack.hash));
-    tell_of_report(folder, words.subject);
+    complain_about_report(folder, words.subject);
     return kDone;
 }
 

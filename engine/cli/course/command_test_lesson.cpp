@@ -27,7 +27,7 @@ int test_lesson(const TestLessonArguments& args) {
         return kDone;
     }
     std::size_t faults = 0;
-    const auto tell = [&](const LessonFaults& found, const std::string& what) {
+    const auto print_faults = [&](const LessonFaults& found, const std::string& what) {
         for (const LessonFault& fault : found) {
             const std::string line = fault.line > 0 ? fmt::format(":{}", fault.line) : "";
             std::cout << terminal_text(
@@ -39,10 +39,10 @@ int test_lesson(const TestLessonArguments& args) {
     };
     const auto requested = [&](const char* part) { return args.part.empty() || args.part == part; };
     bool readable = true;  // what cannot be read is not run
-    if (requested("texts")) readable = tell(faults_of_texts(lesson), "texts");
+    if (requested("texts")) readable = print_faults(faults_of_texts(lesson), "texts");
     if (readable && requested("checks")) {
         LessonFaults warnings;
-        tell(faults_of_checks(trial_setup(lesson, args.secret, args.timeout), &warnings), "checks");
+        print_faults(faults_of_checks(trial_setup(lesson, args.secret, args.timeout), &warnings), "checks");
         for (const LessonFault& warning : warnings)
             std::cout << terminal_text(
                 fmt::format("{}: warning: {}\n", (lesson.folder / warning.file).string(), message_text(warning.what)));
@@ -54,7 +54,7 @@ int test_lesson(const TestLessonArguments& args) {
             activity.begin_step("creating reports and students' copies");
             found = faults_of_documents(lesson);
         }
-        tell(found, "documents");
+        print_faults(found, "documents");
     }
     if (faults > 0)
         std::cerr << "dynlab: "

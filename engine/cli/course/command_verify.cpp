@@ -31,21 +31,21 @@ int verify(const VerifyArgs& args) {
     const std::string text = read_file(args.receipt);
     const std::optional<PublicKey> known = key_at_hand(args);
     const std::string own = key_in_receipt(text);
-    ReceiptCheck verdict = verify_receipt(text, known ? known->digits : own);
-    if (verdict.genuine && !args.file.empty() && !is_receipt_for(text, args.file))
-        verdict = {false, fmt::format("genuine, but NOT for {}: that file has a different SHA-256", args.file)};
+    ReceiptCheck receipt_check = verify_receipt(text, known ? known->digits : own);
+    if (receipt_check.genuine && !args.file.empty() && !is_receipt_for(text, args.file))
+        receipt_check = {false, fmt::format("genuine, but NOT for {}: that file has a different SHA-256", args.file)};
     std::string signer;
-    if (verdict.genuine)
+    if (receipt_check.genuine)
         signer = known ? fmt::format(", signed by the course \"{}\"", known->course)
                        : fmt::format(
                              ", signed with the key that it contains:\n"
                              "{}\n"
                              "Check that this is your course's key: see its {} or its page.",
                              own, kPublicKeyFile);
-    std::cout << terminal_text(fmt::format("{}: {}{}{}\n", args.receipt, verdict.reason,
-                                           verdict.genuine && !args.file.empty() ? ", for exactly this file" : "",
+    std::cout << terminal_text(fmt::format("{}: {}{}{}\n", args.receipt, receipt_check.reason,
+                                           receipt_check.genuine && !args.file.empty() ? ", for exactly this file" : "",
                                            signer));
-    return verdict.genuine ? kDone : kFailed;
+    return receipt_check.genuine ? kDone : kFailed;
 }
 
 }  // namespace

@@ -9,10 +9,10 @@
 namespace dynlab::inline cli {
 
 FigureListener view_in_browser() {
-    const auto tell = [](const std::string& address) { std::cerr << "figures: " << address << std::endl; };
-    const auto viewer = std::make_shared<FigureViewer>(tell);
+    const auto print_address = [](const std::string& address) { std::cerr << "figures: " << address << std::endl; };
+    const auto viewer = std::make_shared<FigureViewer>(print_address);
     const auto browser = std::make_shared<DesktopBrowser>();
-    tell(viewer->address());
+    print_address(viewer->address());
     browser->open(viewer->address());
     return [viewer, browser](const std::string& name, const Figure& figure) { viewer->show(name, figure); };
 }

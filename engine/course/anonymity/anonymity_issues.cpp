@@ -74,7 +74,7 @@ bool prints_by_pattern(Object resources, std::set<QPDFObjGen>& known) {
     return false;
 }
 
-void add_page(Object page, int number, std::uint64_t most, InsideOfPdf& read) {
+void add_page(Object page, int number, std::uint64_t max_bytes, InsideOfPdf& read) {
     if (Object annotations = page.getKey("/Annots"); annotations.isArray())
         for (Object annotation : annotations.getArrayAsVector())
             if (annotation.isDictionary() && annotation.getKey("/A").isDictionary())
@@ -92,7 +92,7 @@ void add_page(Object page, int number, std::uint64_t most, InsideOfPdf& read) {
     picture = picture || prints_by_pattern(QPDFPageObjectHelper(page).getAttribute("/Resources", false), forms);
     if (picture) read.pictures.push_back(number);
     std::size_t bytes = 0;
-    for (const Object& content : page.getPageContents()) bytes += stream_content(content, most).bytes.size();
+    for (const Object& content : page.getPageContents()) bytes += stream_content(content, max_bytes).bytes.size();
     if (bytes > kEmptyPage) read.drawn.push_back(number);
 }
 

@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kMaxFile = 64ull << 20, kMaxMade = 200ull << 20, kRoomForReport = 8ull << 20;
+constexpr std::uint64_t kMaxFile = 64ull << 20, kMaxMade = 200ull << 20, kSpaceForReport = 8ull << 20;
 
 std::uint64_t bytes_below(const fs::path& folder) {
     std::uint64_t bytes = 0;
@@ -132,7 +132,7 @@ class CopyingAnonymously {
         const ChildResult child = sandbox.run(
             {program.string(), "report", inside.string(), "-o", (out / "report.pdf").string()}, {}, "", limits);
         const bool made = child.exit_code == 0 && fs::is_regular_file(report());
-        if (!made) refuse_full_disk(report().parent_path(), kRoomForReport);
+        if (!made) refuse_full_disk(report().parent_path(), kSpaceForReport);
         if (made && bytes_below(report().parent_path()) <= kMaxMade) return true;
         result_.error_reason = Message("The report cannot be created again: {}",
                                        made ? Message("the report is too large") : reason_of(child, inside));

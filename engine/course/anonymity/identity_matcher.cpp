@@ -14,9 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kShortestAddress = 6;
-constexpr int kMaxDecodings = 2;             ///< of percent-encoded text
-constexpr std::size_t kShortestInSmall = 6;  ///< letters of a surname
+constexpr std::size_t kMinAddressLength = 6;
+constexpr int kMaxDecodings = 2;                ///< of percent-encoded text
+constexpr std::size_t kMinLowercaseLength = 6;  ///< letters of a surname
 
 using Tokens = std::vector<NameToken>;
 
@@ -238,7 +238,7 @@ void IdentityMatcher::add(const Student& student, bool own) {
 void IdentityMatcher::add_writings(const Student& student, bool own) {
     for (NamePattern& pattern : patterns_of(student, own)) index(std::move(pattern));
     const std::string address = squeezed(student.mail, nullptr);
-    if (address.find('@') != std::string::npos && address.size() >= kShortestAddress)
+    if (address.find('@') != std::string::npos && address.size() >= kMinAddressLength)
         addresses_.emplace_back(address, student.name.empty() ? student.id : student.name);
 }
 
@@ -270,7 +270,7 @@ void IdentityMatcher::find_patterns(const Tokens& tokens, std::string_view text,
             const bool identifier = is_in_identifier(text, tokens[i].begin, last.end);
             const bool alone = pattern.kind == NameKind::kName && !pattern.whole;
             const bool in_small = manner == TextManner::kProse && alone && !tokens[i].capital;
-            const bool short_or_given = pattern.given_only || pattern.letters.size() < kShortestInSmall;
+            const bool short_or_given = pattern.given_only || pattern.letters.size() < kMinLowercaseLength;
             if (pattern.labeled && !whole_text && !is_labeled(tokens, i)) continue;
             if (pattern.kind == NameKind::kNumber && has_decimals(tokens, end, text)) continue;
             if (!whole_text && may_be_words(pattern, tokens, i, end, written)) continue;

@@ -9,12 +9,12 @@
 namespace dynlab::inline course {
 namespace {
 
-constexpr std::size_t kMinNameLength = 4;                            ///< letters of a surname or given name alone
-constexpr std::size_t kShortestGiven = 3;                            ///< of the document's own authors
-constexpr std::size_t kMinNumberDigits = 6;                          ///< digits
-constexpr std::size_t kShortestMixed = 5;                            ///< letters and digits
-constexpr std::size_t kMinSearchedDigits = 3;                        ///< of a number that is searched for
-constexpr std::size_t kShortestOrdinary = 3, kMinAccountLength = 6;  ///< letters
+constexpr std::size_t kMinNameLength = 4;                             ///< letters of a surname or given name alone
+constexpr std::size_t kMinGivenNameLength = 3;                        ///< of the document's own authors
+constexpr std::size_t kMinNumberDigits = 6;                           ///< digits
+constexpr std::size_t kMinMixedLength = 5;                            ///< letters and digits
+constexpr std::size_t kMinSearchedDigits = 3;                         ///< of a number that is searched for
+constexpr std::size_t kMinOrdinaryLength = 3, kMinAccountLength = 6;  ///< letters
 
 /// A word of a name: "O'Brien" has two tokens.
 struct Part {
@@ -103,7 +103,7 @@ NamePattern whole_name(const std::string& who, const std::vector<Part>& parts, b
     return pattern;
 }
 
-bool may_stand_alone(const Part& part) {
+bool may_occur_alone(const Part& part) {
     return part.letters.size() >= kMinNameLength && !is_ordinary_word(part.letters);
 }
 
@@ -138,7 +138,7 @@ void add_initialled(const std::string& who, const FullName& name, std::vector<Na
     };
     for (const Part& given : name.given) {
         if (given.letters.size() > 1) add(given, initial_of(name.surname), false);
-        if (may_stand_alone(name.surname)) continue;
+        if (may_occur_alone(name.surname)) continue;
         add(initial_of(given), name.surname, false);
         add(name.surname, initial_of(given), true);
     }
@@ -166,10 +166,10 @@ void add_names(const std::string& who, const FullName& name, bool own, std::vect
     alone.whole = false;
     alone.capital = true;
     for (const Part& part : name.given) alone.initials += part.letters.front();
-    if (may_stand_alone(name.surname)) {
+    if (may_occur_alone(name.surname)) {
         append(alone, name.surname);
         patterns.push_back(alone);
-    } else if (name.surname.letters.size() >= kShortestOrdinary && is_ordinary_word(name.surname.letters)) {
+    } else if (name.surname.letters.size() >= kMinOrdinaryLength && is_ordinary_word(name.surname.letters)) {
         append(alone, name.surname);
         alone.ordinary = true;
         patterns.push_back(alone);
@@ -178,7 +178,7 @@ void add_names(const std::string& who, const FullName& name, bool own, std::vect
     if (!own) return;
     if (!name.given.empty() && !name.surname.letters.empty()) add_initialled(who, name, patterns);
     for (const Part& part : name.given) {
-        if (part.letters.size() < kShortestGiven || is_ordinary_word(part.letters)) continue;
+        if (part.letters.size() < kMinGivenNameLength || is_ordinary_word(part.letters)) continue;
         NamePattern given = alone;
         given.letters.clear();
         given.breaks.clear();
@@ -212,7 +212,7 @@ void add_number(NameKind kind, const std::string& who, const std::string& text, 
         if (token.digits && token.letters.size() == 1) pattern.spaced = false;
     }
     if (!digits || (kind != NameKind::kGroup && !is_searched_number(text))) return;
-    pattern.labeled = pattern.letters.size() < (letters ? kShortestMixed : kMinNumberDigits);
+    pattern.labeled = pattern.letters.size() < (letters ? kMinMixedLength : kMinNumberDigits);
     patterns.push_back(pattern);
 }
 
@@ -323,12 +323,12 @@ std::vector<NamePattern> patterns_of(const Student& student, bool own) {
         pattern.account = true;
         pattern.own = own;
         const std::string &given = name.given.front().letters, &surname = name.surname.letters;
-        const auto add = [&](const std::string& account_name, std::size_t shortest) {
-            if (account_name.size() < shortest) return;
+        const auto add = [&](const std::string& account_name, std::size_t min_length) {
+            if (account_name.size() < min_length) return;
             pattern.letters = account_name;
             patterns.push_back(pattern);
         };
-        if (may_stand_alone(name.surname)) {
+        if (may_occur_alone(name.surname)) {
             add(given.substr(0, 1) + surname, kMinAccountLength);
             if (const std::string turned = surname + given.substr(0, 1); !is_ordinary_word(turned))
                 add(turned, kMinAccountLength);

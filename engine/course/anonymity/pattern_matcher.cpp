@@ -5,10 +5,10 @@
 namespace dynlab::inline course {
 namespace {
 
-constexpr std::size_t kMinJoinedLength = 7;  ///< letters of a whole name written as one word
-constexpr std::size_t kShortestGrouped = 7;  ///< digits of a number that is written in groups
-constexpr std::size_t kLongestPrefix = 3;    ///< letters before an account's short number
-constexpr std::size_t kShortestPlural = 5;   ///< letters of a surname
+constexpr std::size_t kMinJoinedLength = 7;   ///< letters of a whole name written as one word
+constexpr std::size_t kMinGroupedDigits = 7;  ///< digits of a number that is written in groups
+constexpr std::size_t kMaxPrefixLength = 3;   ///< letters before an account's short number
+constexpr std::size_t kMinPluralLength = 5;   ///< letters of a surname
 
 using Tokens = std::vector<NameToken>;
 
@@ -41,7 +41,7 @@ class PatternMatcher {
             if (skips_initial() || skips_connection() || skips_number_sign()) ++next_;
             if (next_ == tokens_.size() || !takes(tokens_[next_])) return {};
         }
-        if (pattern_.kind != NameKind::kName && !stands_apart()) return {};
+        if (pattern_.kind != NameKind::kName && !is_separate_word()) return {};
         return PatternMatch{next_, parted_};
     }
 
@@ -73,7 +73,7 @@ class PatternMatcher {
     bool is_grouped(const NameToken& token) const {
         const NameToken& before = tokens_[next_ - 1];
         if (pattern_.kind != NameKind::kNumber || !token.digits || !before.digits) return false;
-        if (token.letters.size() < 2 || before.letters.size() < 2 || pattern_.letters.size() < kShortestGrouped)
+        if (token.letters.size() < 2 || before.letters.size() < 2 || pattern_.letters.size() < kMinGroupedDigits)
             return false;
         const std::string_view between = text_.substr(before.end, token.begin - before.end);
         const bool thousands =
@@ -93,7 +93,7 @@ class PatternMatcher {
     /// "Lovelaces", "Lovelace's" without its apostrophe.
     bool is_plural(const NameToken& token) const {
         const std::string_view rest = std::string_view(pattern_.letters).substr(read_);
-        return pattern_.kind == NameKind::kName && !pattern_.given_only && rest.size() >= kShortestPlural &&
+        return pattern_.kind == NameKind::kName && !pattern_.given_only && rest.size() >= kMinPluralLength &&
                token.letters.size() == rest.size() + 1 && token.letters.ends_with('s') &&
                token.letters.starts_with(rest);
     }
@@ -125,13 +125,13 @@ class PatternMatcher {
     }
 
     /// A number is not part of a longer one and has no decimals. Accounts have letters before it: "s20214711".
-    bool stands_apart() const {
+    bool is_separate_word() const {
         if (next_ < tokens_.size() && tokens_[next_].gap == Gap::kNone && !may_touch_letters()) return false;
         if (first_ == 0 || tokens_[first_].gap != Gap::kNone) return true;
         const NameToken& before = tokens_[first_ - 1];
         const bool is_account = pattern_.kind == NameKind::kNumber && tokens_[first_].digits && !before.digits &&
                                 (first_ == 1 || before.gap != Gap::kNone);
-        return is_account && (!pattern_.labeled || before.letters.size() <= kLongestPrefix || is_label(before));
+        return is_account && (!pattern_.labeled || before.letters.size() <= kMaxPrefixLength || is_label(before));
     }
 
     const NamePattern& pattern_;

@@ -9,7 +9,7 @@
 namespace dynlab::inline course {
 namespace {
 
-constexpr std::size_t kMaxFormulas = 20'000, kLongestFormula = 2'000;
+constexpr std::size_t kMaxFormulas = 20'000, kMaxFormulaLength = 2'000;
 
 /// A piece of a text: a formula without its dollar signs, or what is between formulas.
 struct TextPiece {
@@ -24,7 +24,7 @@ bool is_blank_at(std::string_view text, std::size_t at) {
 /// Where the formula ends whose first character is at `begin`, by the rules of Markdown; npos where there is none.
 std::size_t end_of_formula(std::string_view text, std::size_t begin, std::string_view sign) {
     if (sign.size() == 1 && is_blank_at(text, begin)) return text.npos;
-    for (std::size_t at = begin; at < std::min(text.size(), begin + kLongestFormula); ++at) {
+    for (std::size_t at = begin; at < std::min(text.size(), begin + kMaxFormulaLength); ++at) {
         if (text[at] == '\\') {
             ++at;
         } else if (text.substr(at).starts_with("\n\n")) {

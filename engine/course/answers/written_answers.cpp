@@ -15,9 +15,9 @@
 namespace dynlab::inline course {
 namespace {
 
-constexpr std::size_t kShortLine = 12;   // characters: "$$", "---" and the like are in every text
-constexpr std::size_t kFewestWords = 8;  // of answers that may be nearly the same
-constexpr double kNearlySame = 0.9;      // of the words of the longer one
+constexpr std::size_t kShortLine = 12;  // characters: "$$", "---" and the like are in every text
+constexpr std::size_t kMinWords = 8;    // of answers that may be nearly the same
+constexpr double kNearlySame = 0.9;     // of the words of the longer one
 
 std::string in_one_line(const std::string& text) {
     return fmt::format("{}", fmt::join(words_between_spaces(text), " "));
@@ -171,7 +171,7 @@ struct ComparedAnswer {
 
 bool are_nearly_same(const ComparedAnswer& a, const ComparedAnswer& b) {
     const std::size_t longer = std::max(a.words.size(), b.words.size());
-    if (std::min(a.words.size(), b.words.size()) < kFewestWords || a.exact != b.exact) return false;
+    if (std::min(a.words.size(), b.words.size()) < kMinWords || a.exact != b.exact) return false;
     std::size_t common = 0;
     for (const auto& [word, count] : a.counts)
         if (const auto found = b.counts.find(word); found != b.counts.end())

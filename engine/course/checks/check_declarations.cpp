@@ -25,13 +25,13 @@ constexpr std::array kOwnOptions = {
     OptionEntry{"mistakes", ValueKind::kAny, about("list of {when = function, say = text}")},
     OptionEntry{"by_hand", ValueKind::kFlag, about("whether the instructor awards the points"), {.initial = "false"}},
     OptionEntry{"rubric", ValueKind::kText, about("guidance for the instructor who awards the points")}};
-constexpr std::array kRigOptions = {
+constexpr std::array kDeclaredPlantOptions = {
     OptionEntry{"name", ValueKind::kText, about("name of the data set")},
     OptionEntry{"record", ValueKind::kAny, about("function that simulates a data set")},
     OptionEntry{"truth", ValueKind::kAny, about("function that returns the true values of a data set")}};
 constexpr OptionTable kChange[] = {kChangedOptions};
 constexpr OptionTable kCheck[] = {kChangedOptions, kOwnOptions};
-constexpr OptionTable kRig[] = {kRigOptions};
+constexpr OptionTable kDeclaredPlantTables[] = {kDeclaredPlantOptions};
 
 bool plain_id(const std::string& id) {
     return !id.empty() && std::ranges::all_of(id, [](unsigned char c) { return std::isalnum(c) || c == '_'; });
@@ -114,18 +114,18 @@ int drop_check(Call& call) {
     return 0;
 }
 
-int declare_rig(Call& call) {
+int declare_plant(Call& call) {
     call.at_most(1);
     CheckSession& session = call.owner<CheckSession>();
-    const Options options(call, 1, kRig);
+    const Options options(call, 1, kDeclaredPlantTables);
     const std::string name = options.text("name", "");
     if (!plain_id(name))
         throw InvalidArgument(
             "the name of a simulated plant must consist of letters, digits and _; it is also the name of its data set");
-    if (session.rigs.contains(name)) throw InvalidArgument("the simulated plant \"{}\" is declared twice", name);
+    if (session.plants.contains(name)) throw InvalidArgument("the simulated plant \"{}\" is declared twice", name);
     const Message owner = Message("the simulated plant \"{}\"", name);
-    session.rigs[name] = {kept_option(options, "record", LUA_TFUNCTION, owner, Message("a function"), true),
-                          kept_option(options, "truth", LUA_TFUNCTION, owner, Message("a function"), false)};
+    session.plants[name] = {kept_option(options, "record", LUA_TFUNCTION, owner, Message("a function"), true),
+                            kept_option(options, "truth", LUA_TFUNCTION, owner, Message("a function"), false)};
     return 0;
 }
 
@@ -137,7 +137,8 @@ constexpr std::array kDeclarationFunctions = {
     FunctionEntry{"drop_check", kDeclarations, "drop_check(id)", "removes a check that was declared before",
                   guarded<drop_check>},
     FunctionEntry{"declare_rig", kDeclarations, "declare_rig{options}",
-                  "declares a simulated plant for hidden data sets and reruns", guarded<declare_rig>, kRig},
+                  "declares a simulated plant for hidden data sets and reruns", guarded<declare_plant>,
+                  kDeclaredPlantTables},
 };
 
 }  // namespace

@@ -97,16 +97,16 @@ int near(Call& call) {
     const Options options(call, 3, kNear);
     const bool absolute = options.has("abs");
     if (absolute && options.has("rel")) throw InvalidArgument("specify either 'rel' or 'abs', not both");
-    const double most = absolute ? options.number("abs", 0) : options.number("rel", 0.05);
-    const double half = options.number("half", most);  // this far away earns half the points
-    if (!(most >= 0) || !(half >= most))
+    const double max_error = absolute ? options.number("abs", 0) : options.number("rel", 0.05);
+    const double half = options.number("half", max_error);  // this far away earns half the points
+    if (!(max_error >= 0) || !(half >= max_error))
         throw InvalidArgument("the tolerance must be nonnegative, and 'half' must not be less than the tolerance");
     const Compared compared(call);
     const double apart = compared.distance(absolute);
     const auto measured = [&](double x) {
         return absolute ? Message("{}", significant(x, 3)) : Message("{} %", significant(100 * x, 3));
     };
-    if (apart <= most) return give_result(call, 1, {});
+    if (apart <= max_error) return give_result(call, 1, {});
     if (!absolute && compared.comparable() && compared.expected.isZero(0))
         throw InvalidArgument("a relative tolerance of 0 allows no error: give an absolute tolerance, {abs = ...}");
     if (!std::isfinite(apart))
@@ -114,8 +114,9 @@ int near(Call& call) {
     if (uses_hidden_data(call))
         return give_result(call, apart <= half ? 0.5 : 0,
                            Message("On a data set that you have not seen, the error is too large."));
-    return give_result(call, apart <= half ? 0.5 : 0,
-                       Message("The error is {}; the largest allowed error is {}.", measured(apart), measured(most)));
+    return give_result(
+        call, apart <= half ? 0.5 : 0,
+        Message("The error is {}; the largest allowed error is {}.", measured(apart), measured(max_error)));
 }
 
 int points_between(Call& call) {
@@ -135,26 +136,26 @@ int points_between(Call& call) {
 /// What a test may return at a stack index: true or false, a share, a judgement.
 CheckOutcome check_outcome_at(const Call& call, int index) {
     lua_State* L = call.state();
-    CheckOutcome verdict;
+    CheckOutcome outcome;
     switch (lua_type(L, index)) {
         case LUA_TNIL:
         case LUA_TNONE:
             break;
         case LUA_TBOOLEAN:
-            verdict.share = lua_toboolean(L, index) ? 1 : 0;
+            outcome.share = lua_toboolean(L, index) ? 1 : 0;
             break;
         case LUA_TNUMBER: {
             const double share = lua_tonumber(L, index);
             if (share < 0 || share > 1)
                 throw InvalidArgument("a test returned {}; expected a number from 0 to 1", significant(share, 4));
-            verdict.share = std::isfinite(share) ? share : 0;
+            outcome.share = std::isfinite(share) ? share : 0;
             break;
         }
         case LUA_TTABLE:
             lua_getfield(L, index, "share");
-            verdict = check_outcome_at(call, lua_gettop(L));
+            outcome = check_outcome_at(call, lua_gettop(L));
             lua_getfield(L, index, "message");
-            if (lua_type(L, -1) == LUA_TSTRING) verdict.message = message_said(call, lua_tostring(L, -1));
+            if (lua_type(L, -1) == LUA_TSTRING) outcome.message = message_said(call, lua_tostring(L, -1));
             lua_pop(L, 2);
             break;
         default:
@@ -162,7 +163,7 @@ CheckOutcome check_outcome_at(const Call& call, int index) {
                 "a test must return true, false, a number from 0 to 1, or the result of near(...) or a similar "
                 "function");
     }
-    return verdict;
+    return outcome;
 }
 
 /// The least share, with the messages of what falls short.
@@ -358,17 +359,17 @@ std::optional<Message> mistake_made(const Call& call, const DeclaredCheck& check
 
 /// For a data set that students must learn nothing about, an error message or a number in a test's message may quote
 /// the data. The message then goes to the instructor only.
-void keep_secret(const CheckSession& session, bool ended, CheckOutcome& verdict) {
-    const bool has_number = message_text(verdict.message).find_first_of("0123456789") != std::string::npos;
-    if (ended ? !has_number : verdict.message == session.answer_error) return;
-    if (verdict.for_instructor.empty()) verdict.for_instructor = std::move(verdict.message);
-    verdict.message = ended ? Message("On a data set that you have not seen, the answer does not earn full points.")
+void keep_secret(const CheckSession& session, bool ended, CheckOutcome& outcome) {
+    const bool has_number = message_text(outcome.message).find_first_of("0123456789") != std::string::npos;
+    if (ended ? !has_number : outcome.message == session.answer_error) return;
+    if (outcome.for_instructor.empty()) outcome.for_instructor = std::move(outcome.message);
+    outcome.message = ended ? Message("On a data set that you have not seen, the answer does not earn full points.")
                             : Message(
                                   "On a data set that you have not seen, the check ended with an error: the answer has "
                                   "the wrong type or size.");
 }
 
-int verdict(Call& call) {
+int store_outcome(Call& call) {
     CheckSession& session = session_of(call);
     lua_State* L = call.state();
     const DeclaredCheck& check = session.checks.at(static_cast<std::size_t>(call.size(1, "number")));
@@ -401,12 +402,12 @@ int verdict(Call& call) {
     if (found.share < 1 && uses_hidden_data(call)) keep_secret(session, ended, found);
     if (found.share < 1)
         if (auto said = mistake_made(call, check, answers)) found.message = *std::move(said);
-    session.verdict = std::move(found);
+    session.outcome = std::move(found);
     return 0;
 }
 
-constexpr std::array kVerdict = {
-    FunctionEntry{"_verdict", kArea, "", "", guarded<verdict>},
+constexpr std::array kOutcomeFunction = {
+    FunctionEntry{"_verdict", kArea, "", "", guarded<store_outcome>},
 };
 
 }  // namespace
@@ -415,8 +416,8 @@ FunctionEntries check_functions() {
     return kFunctions;
 }
 
-FunctionEntries verdict_function() {
-    return kVerdict;
+FunctionEntries outcome_function() {
+    return kOutcomeFunction;
 }
 
 std::vector<std::string> names_of_check_functions() {

@@ -21,10 +21,10 @@ void call_library(const Call& call, const char* name, int arguments) {
 }
 
 /// Pushes the result of a function of a declared simulated plant.
-void call_of_plant(const Call& call, int function, std::uint32_t specimen, std::uint32_t seed) {
+void call_of_plant(const Call& call, int function, std::uint32_t variant_number, std::uint32_t seed) {
     lua_State* L = call.state();
     lua_rawgeti(L, LUA_REGISTRYINDEX, function);
-    give_table(call, "specimen", specimen, "seed", seed);
+    give_table(call, "specimen", variant_number, "seed", seed);
     lua_call(L, 1, 1);
 }
 
@@ -35,7 +35,7 @@ int simulated_data(Call& call) {
     const auto whole = [&](int index) { return static_cast<std::uint32_t>(call.whole(index, "number")); };
     session.simulated_data.clear();
     lua_State* L = call.state();
-    call_of_plant(call, session.rigs.at(name).simulated_data, whole(2), whole(3));
+    call_of_plant(call, session.plants.at(name).simulated_data, whole(2), whole(3));
     const int table = lua_gettop(L);
     if (lua_type(L, table) != LUA_TTABLE)
         throw InvalidArgument("the data set of the simulated plant \"{}\" must be a table of vectors", name);
@@ -86,19 +86,19 @@ std::string run_of_answers(const Call& call, int index) {
 }
 
 /// The plant variant and the data set whose true model is requested.
-std::pair<std::string, std::uint32_t> specimen_meant(const Call& call, CheckSession& session) {
+std::pair<std::string, std::uint32_t> requested_plant_variant(const Call& call, CheckSession& session) {
     if (call.type(1) == LUA_TSTRING) {
         call.at_most(1);
         note_hidden(session);
         const std::string name = call.text(1, "name");
-        const PlantVariants& hidden = session.specimens[kHiddenDataSets];
+        const PlantVariants& hidden = session.variants[kHiddenDataSets];
         const auto found = hidden.find(name);
         if (found == hidden.end()) throw InvalidArgument("no hidden data set with true values is named \"{}\"", name);
         return *found;
     }
     call.at_most(2);
     const std::string run = run_of_answers(call, 1);
-    const PlantVariants& own = session.specimens[run];
+    const PlantVariants& own = session.variants[run];
     const std::string name = call.given(2) ? call.text(2, "name") : run;
     const auto found = own.find(name);
     if (found != own.end()) return *found;
@@ -111,15 +111,15 @@ std::pair<std::string, std::uint32_t> specimen_meant(const Call& call, CheckSess
 /// set that the script read.
 int truth(Call& call) {
     CheckSession& session = call.owner<CheckSession>();
-    const auto [name, specimen] = specimen_meant(call, session);
-    if (const auto own = session.rigs.find(name); own != session.rigs.end()) {
+    const auto [name, variant_number] = requested_plant_variant(call, session);
+    if (const auto own = session.plants.find(name); own != session.plants.end()) {
         if (own->second.truth == 0)
             throw InvalidArgument("the simulated plant \"{}\" does not declare true values", name);
-        call_of_plant(call, own->second.truth, specimen, specimen);
+        call_of_plant(call, own->second.truth, variant_number, variant_number);
         return 1;
     }
     call.give(name);
-    give_table(call, "specimen", specimen);
+    give_table(call, "specimen", variant_number);
     call_library(call, "rig_truth", 2);
     return 1;
 }

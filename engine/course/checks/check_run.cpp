@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint64_t kMaxCheckResultBytes = 4u << 20;  // bytes of what the checks say of one submission
 
 /// In a copy of this process.
-GradedSubmission judged_in_a_copy(const ChecksJob& job, const SubmissionToGrade& submission) {
+GradedSubmission result_from_copy(const ChecksJob& job, const SubmissionToGrade& submission) {
     GuardLimits limits;
     limits.time = {std::chrono::milliseconds(job.most_ms), job.clock_multiple};
     limits.memory_bytes = ProcessLimits().memory_bytes;
@@ -26,25 +26,25 @@ GradedSubmission judged_in_a_copy(const ChecksJob& job, const SubmissionToGrade&
     const ChildResult copy = run_guarded(
         [&] {
             ::setenv("DYNLAB_HOME", submission.home.c_str(), 1);
-            GradedSubmission judged;
+            GradedSubmission submission_result;
             ReadChecks checks(job, &submission);
             if (checks.error())
-                judged.reason = *checks.error();
+                submission_result.reason = *checks.error();
             else
-                judged.checks = checks.evaluated(job.only);
-            return cbor_of(judged);
+                submission_result.checks = checks.evaluated(job.only);
+            return cbor_of(submission_result);
         },
         limits);
-    GradedSubmission judged;
-    judged.reason = reason_of_end(copy, limits.time);
+    GradedSubmission submission_result;
+    submission_result.reason = reason_of_end(copy, limits.time);
     try {
-        if (judged.reason.empty())
-            judged = from_cbor<GradedSubmission>(copy.output, sandbox_limits(kMaxCheckResultBytes));
+        if (submission_result.reason.empty())
+            submission_result = from_cbor<GradedSubmission>(copy.output, sandbox_limits(kMaxCheckResultBytes));
     } catch (const ValueError&) {
-        judged.reason = Message("the result of the run cannot be read");
+        submission_result.reason = Message("the result of the run cannot be read");
     }
-    judged.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    return judged;
+    submission_result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return submission_result;
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ CheckResults try_checks(const ChecksJob& job) {
     limit_process({});
     hide_memory();
     for (const SubmissionToGrade& submission : job.submissions)
-        results.judged.push_back(judged_in_a_copy(job, submission));
+        results.judged.push_back(result_from_copy(job, submission));
     return results;
 }
 

@@ -54,20 +54,20 @@ inline constexpr char kRunOfAnswers[] = "run";       ///< field of a metatable: 
 /// What the functions of checks.lua share while a submission is checked.
 struct CheckSession {
     std::vector<DeclaredCheck> checks;
-    std::map<std::string, DeclaredPlant> rigs;  ///< by data set
-    std::map<std::string, GradedRun> runs;      ///< kMainRun, and one for each rerun
-    std::string source;                         ///< the student's script
-    Issues findings;                            ///< of the document
+    std::map<std::string, DeclaredPlant> plants;  ///< by data set
+    std::map<std::string, GradedRun> runs;        ///< kMainRun, and one for each rerun
+    std::string source;                           ///< the student's script
+    Issues findings;                              ///< of the document
     /// Plant variants of the data sets that each run read, by run; "hidden": those of hidden(). Data sets without an
     /// entry are the common ones, variant 0.
-    std::map<std::string, PlantVariants> specimens;
+    std::map<std::string, PlantVariants> variants;
     std::filesystem::path hidden_folder;  ///< holds NAME.mat or NAME.csv
     bool visible_file = true;             ///< of the file that is being read
     const DeclaredCheck* current = nullptr;
     bool took_hidden = false;             ///< the current check used a hidden data set or its theoretical values
     Message answer_error;                 ///< why an answer that the current check requested is missing; quotes no data
     std::map<std::string, Message> said;  ///< message of each check result by its English text, which Lua holds
-    std::optional<CheckOutcome> verdict;
+    std::optional<CheckOutcome> outcome;
     std::optional<std::pair<std::string, double>> change;       ///< an answer that is seen multiplied
     std::map<std::string, std::vector<double>> simulated_data;  ///< what `_record` made last
 };

@@ -24,11 +24,11 @@ Message shortened_message(const Message& message) {
 }
 
 /// Runs every check, or only the requested one. Each check has a separate time limit.
-std::vector<EvaluatedCheck> verdicts(Runtime& runtime, CheckSession& session, std::optional<std::size_t> only) {
+std::vector<EvaluatedCheck> evaluate_checks(Runtime& runtime, CheckSession& session, std::optional<std::size_t> only) {
     std::vector<EvaluatedCheck> all;
     for (std::size_t k = 0; k < session.checks.size(); ++k) {
         if (only && *only != k) continue;
-        session.verdict.reset();
+        session.outcome.reset();
         if (session.checks[k].by_hand) {
             all.push_back({session.checks[k], {}, {}, {}});
             continue;
@@ -38,10 +38,10 @@ std::vector<EvaluatedCheck> verdicts(Runtime& runtime, CheckSession& session, st
         EvaluatedCheck& one = all.emplace_back();
         one.check = session.checks[k];
         one.seconds = std::chrono::duration<double>(processor_time() - start).count();
-        if (session.verdict && !record.error) {
-            one.share = session.verdict->share;
-            one.message = shortened_message(session.verdict->message);
-            one.for_instructor = shortened_message(session.verdict->for_instructor);
+        if (session.outcome && !record.error) {
+            one.share = session.outcome->share;
+            one.message = shortened_message(session.outcome->message);
+            one.for_instructor = shortened_message(session.outcome->for_instructor);
         } else {
             one.message =
                 record.error ? shortened_message(with_place(*record.error)) : Message("the check returned no result");
@@ -63,7 +63,7 @@ ReadChecks::ReadChecks(const ChecksJob& job, const SubmissionToGrade* submission
     session_.hidden_folder = job.hidden_folder;
     if (submission != nullptr) hand_over(*submission);
     for (const auto functions : {check_declarations, check_functions, check_source_functions, check_data_functions,
-                                 verdict_function, data_function})
+                                 outcome_function, data_function})
         runtime_.add_functions(functions(), session_);
     for (const CheckFile& file : job.files) {
         session_.visible_file = file.visible;
@@ -75,12 +75,12 @@ ReadChecks::ReadChecks(const ChecksJob& job, const SubmissionToGrade* submission
 }
 
 std::vector<EvaluatedCheck> ReadChecks::evaluated(std::optional<std::size_t> only) {
-    return verdicts(runtime_, session_, only);
+    return evaluate_checks(runtime_, session_, only);
 }
 
 CheckResults ReadChecks::listed(const std::vector<RequestedDataSet>& data_sets) {
     CheckResults results;
-    for (const auto& [name, rig] : session_.rigs) results.rigs.push_back(name);
+    for (const auto& [name, plant] : session_.plants) results.rigs.push_back(name);
     for (const RequestedDataSet& requested : data_sets) {
         const RunRecord record = runtime_.run_code(
             fmt::format("_record(\"{}\", {}, {})", requested.rig, requested.specimen, requested.seed), requested.rig);
@@ -95,7 +95,7 @@ CheckResults ReadChecks::listed(const std::vector<RequestedDataSet>& data_sets) 
 }
 
 void ReadChecks::hand_over(const SubmissionToGrade& submission) {
-    session_.specimens = submission.specimens;
+    session_.variants = submission.specimens;
     session_.runs = submission.work.runs;
     session_.findings = submission.work.findings;
     session_.source = submission.work.source;

@@ -35,7 +35,7 @@ FilledWorksheet fill_worksheet(Course& course, const std::optional<Assignment>& 
     PlatformSheet sheet(worksheet, column);
     const std::vector<Student> students = students_of(course);
     const std::map<std::string, double> percent = percent_of_students(course, assignment, students, now);
-    const double most = sheet.maximum().value_or(100);
+    const double max_grade = sheet.maximum().value_or(100);
     std::map<std::string, std::string> students_by_number;
     for (const auto& [student, number] : numbers_in(sheet, students)) students_by_number[number] = student;
     FilledWorksheet filled;
@@ -49,7 +49,7 @@ FilledWorksheet fill_worksheet(Course& course, const std::optional<Assignment>& 
         }
         const auto mark = percent.find(student->second);
         if (mark == percent.end()) continue;
-        sheet.set_grade(person, fmt::format("{:.4g}", mark->second * most / 100));
+        sheet.set_grade(person, fmt::format("{:.4g}", mark->second * max_grade / 100));
         entered[student->second] = true;
         ++filled.marks;
     }

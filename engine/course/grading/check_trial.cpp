@@ -181,9 +181,9 @@ CheckTrial try_checks_of(const GradingSetup& setup, Mutants mutants) {
             submissions.push_back(std::move(one));
             names.push_back(name);
         }
-    const std::vector<std::vector<EvaluatedCheck>> verdicts = rules.evaluated(submissions);
-    for (std::size_t k = 0; k < verdicts.size(); ++k) {
-        EvaluatedScript script{names[k], submissions[k].runs.at(kMainRun).error.value_or(Message()), verdicts[k]};
+    const std::vector<std::vector<EvaluatedCheck>> results = rules.evaluated(submissions);
+    for (std::size_t k = 0; k < results.size(); ++k) {
+        EvaluatedScript script{names[k], submissions[k].runs.at(kMainRun).error.value_or(Message()), results[k]};
         if (k == 0)
             trial.solution = std::move(script);
         else

@@ -257,8 +257,8 @@ void add_numbers(const ClassResults& results, const Vector& points, double possi
 
 /// A bar for each point, around it; for each several where there are many.
 RecordedFigure histogram_of(const Vector& points, double possible) {
-    constexpr double kMostBars = 40;
-    const double width = std::max(1.0, std::ceil(possible / kMostBars)), bars = std::ceil(possible / width) + 1;
+    constexpr double kMaxBars = 40;
+    const double width = std::max(1.0, std::ceil(possible / kMaxBars)), bars = std::ceil(possible / width) + 1;
     HistogramOptions options;
     options.edges = Vector::LinSpaced(static_cast<Index>(bars) + 1, -0.5 * width, (bars - 0.5) * width);
     options.x_label = Message("points of {}", points_text(possible));

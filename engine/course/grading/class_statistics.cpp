@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kFewestForCorrelation = 5;
+constexpr std::size_t kMinSubmissionsForCorrelation = 5;
 constexpr std::size_t kMaxMistakes = 5;
 
 /// What two messages have in common that differ in their numbers only.
@@ -52,7 +52,8 @@ double discrimination(const std::vector<Grade>& grades, const std::string& id) {
         own.push_back(mine);
         others.push_back(rest);
     }
-    return own.size() < kFewestForCorrelation ? std::numeric_limits<double>::quiet_NaN() : correlation(own, others);
+    return own.size() < kMinSubmissionsForCorrelation ? std::numeric_limits<double>::quiet_NaN()
+                                                      : correlation(own, others);
 }
 
 std::vector<std::pair<std::string, int>> most_frequent(const std::map<std::string, int>& counts) {

@@ -62,7 +62,7 @@ class FeedbackText {
         if (grade_.error_reason.empty())
             return words(grade_.silent ? Message("Your script ran to completion but submitted no answer.")
                                        : Message("Your script ran to completion."));
-        const std::string why = shown_trouble();
+        const std::string why = error_text();
         if (grade_.unreadable && grade_.whole())
             return words(
                 Message("**The program could not read your work, so your instructor marked it manually:** {}", why));
@@ -98,7 +98,7 @@ class FeedbackText {
     }
 
     /// In French, a space comes before a colon, which is none of "analysis.lua:3": as code the place stays as it is.
-    std::string shown_trouble() const {
+    std::string error_text() const {
         static const RE2 kPlace(R"(([\w.-]+\.lua:\d+): )", RE2::Latin1);
         const Message& error_reason = grade_.error_reason;
         const bool placed = error_reason.arguments().size() == 2;

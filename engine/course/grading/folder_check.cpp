@@ -115,7 +115,7 @@ class FolderCheck {
         else if (submitted_pdf)
             check_report(*submitted_pdf, check_options);
         if (made && submitted_pdf) compare_with(*submitted_pdf);
-        if (of_notebook_) tell_in_cells();
+        if (of_notebook_) convert_places_to_cells();
         sort_issues(result_.findings);
         return std::move(result_);
     }
@@ -171,7 +171,7 @@ class FolderCheck {
     }
 
     /// The cells of the notebook instead of lines that its author does not see.
-    void tell_in_cells() {
+    void convert_places_to_cells() {
         const std::string source = read_file(copy() / kOwnScript);
         const auto in_cells = [&source](const auto& text) {
             return with_places_in_notebook(text, kOwnScript, kOwnNotebook, source);

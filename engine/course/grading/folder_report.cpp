@@ -19,23 +19,23 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kMissingProgramCode = 3;  ///< dynlab's exit code when pandoc or the like is not installed
-constexpr std::uint64_t kMostCheckOutput = 16u << 20, kMaxMadeBytes = 200u << 20;
-constexpr char kInBox[] = "/box/submission", kRecord[] = "record.json", kMessages[] = "messages";
+constexpr std::uint64_t kMaxCheckOutput = 16u << 20, kMaxMadeBytes = 200u << 20;
+constexpr char kFolderInSandbox[] = "/box/submission", kRecord[] = "record.json", kMessages[] = "messages";
 
 ChildResult run_report(const fs::path& folder, const fs::path& out, const fs::path& program, Isolation isolation,
                        const TimeLimits& time) {
     Sandbox sandbox(isolation);
     sandbox.add_document_home(shared_folder() / "data");
-    const fs::path inside = sandbox.add(folder, kInBox), made = sandbox.add_writable(out, "/box/made");
+    const fs::path inside = sandbox.add(folder, kFolderInSandbox), made = sandbox.add_writable(out, "/box/made");
     const fs::path dynlab = sandbox.add_program(program);
     sandbox.set_environment(kFileOfCommandMessages, (made / kMessages).string());
-    Sandbox::Limits most;
-    most.time = time;
-    most.output_bytes = kMostCheckOutput;
-    most.file_bytes = kMaxMadeBytes;
+    Sandbox::Limits limits;
+    limits.time = time;
+    limits.output_bytes = kMaxCheckOutput;
+    limits.file_bytes = kMaxMadeBytes;
     return sandbox.run({dynlab.string(), "report", inside.string(), "-o", (made / "report.pdf").string(), "--record",
                         (made / kRecord).string(), "--stay-in-folder"},
-                       made, "", most);
+                       made, "", limits);
 }
 
 std::optional<RecordedError> error_of_run(const fs::path& record) {
@@ -59,8 +59,8 @@ Message complaint(const ChildResult& made, const fs::path& messages, const fs::p
     const Message all =
         said.items.empty() ? Message::verbatim(trimmed(replaced(made.error_output, "\n", " "))) : Message("{}", said);
     return with_changed_text(all, [&folder](std::string text) {
-        for (const std::string& place : {folder.string() + "/", std::string(kInBox) + "/", std::string("../folder/"),
-                                         std::string("../submission/")})
+        for (const std::string& place : {folder.string() + "/", std::string(kFolderInSandbox) + "/",
+                                         std::string("../folder/"), std::string("../submission/")})
             text = replaced(text, place, "");
         return text;
     });

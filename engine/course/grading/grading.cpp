@@ -43,7 +43,7 @@ std::vector<Grade> GradingPipeline::check(std::vector<ToCheck> submissions) cons
     std::vector<GradingRules::Work> works;
     for (ToCheck& one : submissions)
         works.push_back({one.item->submission.name, std::move(one.run.runs.work), one.item->seed, one.run.log});
-    std::vector<Grade> grades = rules_.judged(std::move(works));
+    std::vector<Grade> grades = rules_.grade_all(std::move(works));
     for (std::size_t i = 0; i < grades.size(); ++i) {
         grades[i].fingerprint = submissions[i].key;
         grades[i].remark = submissions[i].run.runs.remark;

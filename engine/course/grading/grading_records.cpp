@@ -24,8 +24,8 @@ std::uint32_t GradingRules::drawn(const std::string& what) const {
 /// take a tenth of a second.
 void GradingRules::make_data_sets() {
     fs::create_directories(data_sets_.path() / kHiddenDataSets);
-    for (const Plant& rig : plant_catalog())
-        make_data_set(rig.name, kHiddenDataSets, data_sets_.path() / kHiddenDataSets);
+    for (const Plant& plant : plant_catalog())
+        make_data_set(plant.name, kHiddenDataSets, data_sets_.path() / kHiddenDataSets);
     for (const std::string& rerun : reruns_) {
         if (rerun == kOtherSeedRun) continue;
         const fs::path data = data_sets_.path() / rerun / "data";
@@ -69,15 +69,16 @@ void GradingRules::make_data_of_declared_plants() {
     if (declared_plants_.empty()) return;
     std::vector<RequestedDataSet> requested;
     std::vector<fs::path> files;
-    for (const std::string& rig : declared_plants_)
-        for (const std::string& run : {std::string(kHiddenDataSets), rig}) {
+    for (const std::string& plant : declared_plants_)
+        for (const std::string& run : {std::string(kHiddenDataSets), plant}) {
             const bool hidden = run == kHiddenDataSets;
-            if (!hidden && !reruns_.contains(rig)) continue;
-            const std::uint32_t specimen = drawn(rig);
-            requested.push_back({rig, specimen, drawn(noise_of(rig, run))});
-            files.push_back((hidden ? data_sets_.path() / kHiddenDataSets : data_sets_.path() / rig / "data" / rig) /
-                            (rig + ".mat"));
-            variants_[run][rig] = specimen;
+            if (!hidden && !reruns_.contains(plant)) continue;
+            const std::uint32_t variant_number = drawn(plant);
+            requested.push_back({plant, variant_number, drawn(noise_of(plant, run))});
+            files.push_back(
+                (hidden ? data_sets_.path() / kHiddenDataSets : data_sets_.path() / plant / "data" / plant) /
+                (plant + ".mat"));
+            variants_[run][plant] = variant_number;
         }
     const SandboxResult<CheckResults> made = listed(requested);
     if (!made.output)
@@ -93,8 +94,8 @@ void GradingRules::make_data_of_declared_plants() {
 
 void GradingRules::make_data_set(const std::string& data_set, const std::string& run, const fs::path& folder) {
     // The draw of the variant ignores `run`: hidden data sets are further experiments with the plant of the rerun.
-    const PlantChoice choice{.specimen = drawn(data_set), .seed = drawn(noise_of(data_set, run))};
-    variants_[run][data_set] = choice.specimen;
+    const PlantChoice choice{.variant_number = drawn(data_set), .seed = drawn(noise_of(data_set, run))};
+    variants_[run][data_set] = choice.variant_number;
     write_variant_data(data_set, choice, folder);
 }
 

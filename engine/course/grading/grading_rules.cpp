@@ -31,7 +31,7 @@ constexpr auto kSingleTime = std::chrono::milliseconds(60000);    // of all chec
 constexpr auto kDocumentTime = std::chrono::milliseconds(15000);  // beyond the script's own
 constexpr int kClockMultiple = 20;  // a script cannot wait: only a busy machine makes its run last
 constexpr std::uint64_t kScriptMemory = 1ull << 30;
-constexpr std::uintmax_t kMostSource = 1u << 20;  // bytes of a script that checks may read
+constexpr std::uintmax_t kMaxCheckedSourceBytes = 1u << 20;  // bytes of a script that checks may read
 
 /// The lesson's template where it demands something, else its report.
 std::string standard_for(const Lesson& lesson, const PercentScript& script) {
@@ -61,7 +61,7 @@ std::string hash_of_parts(const std::vector<std::string>& parts) {
 
 [[noreturn]] void refuse_rerun(const std::string& check, const std::string& rerun) {
     std::vector<std::string> names;
-    for (const Plant& rig : plant_catalog()) names.push_back(rig.name);
+    for (const Plant& plant : plant_catalog()) names.push_back(plant.name);
     throw EnvironmentError(
         "the check \"{}\" requests a rerun on \"{}\". Use {}, a plant that the checks declare, or rerun/NAME.csv in "
         "the folder of the checks; \"seed\" changes the seed",
@@ -210,8 +210,8 @@ SandboxResult<CheckResults> GradingRules::listed(std::vector<RequestedDataSet> d
     return run_in_sandbox(sandbox, setup_.program, job, {kSingleTime, setup_.time.clock_multiple});
 }
 
-/// Each may take `most`.
-SandboxResult<CheckResults> GradingRules::checked(const std::vector<Work>& works, std::chrono::milliseconds most,
+/// Each may take `max_time`.
+SandboxResult<CheckResults> GradingRules::checked(const std::vector<Work>& works, std::chrono::milliseconds max_time,
                                                   std::optional<std::size_t> only) const {
     const TakenCore core(*free_cores_);
     Sandbox sandbox(setup_.isolation);
@@ -219,7 +219,7 @@ SandboxResult<CheckResults> GradingRules::checked(const std::vector<Work>& works
     job.files = files_;
     job.hidden_folder = sandbox.add(data_sets_.path() / kHiddenDataSets, "/box/hidden");
     job.time_ms = kCheckTime.count();
-    job.most_ms = most.count();
+    job.most_ms = max_time.count();
     job.clock_multiple = setup_.time.clock_multiple;
     job.only = only;
     std::map<GroupSeed, fs::path> homes;
@@ -232,7 +232,7 @@ SandboxResult<CheckResults> GradingRules::checked(const std::vector<Work>& works
     }
     sandbox.set_environment("DYNLAB_HOME", job.submissions.front().home.string());
     return run_in_sandbox(sandbox, setup_.program, job,
-                          {most * static_cast<int>(works.size()), setup_.time.clock_multiple});
+                          {max_time * static_cast<int>(works.size()), setup_.time.clock_multiple});
 }
 
 std::vector<std::vector<EvaluatedCheck>> GradingRules::evaluated(
@@ -243,15 +243,16 @@ std::vector<std::vector<EvaluatedCheck>> GradingRules::evaluated(
     auto result = checked(works, kSingleTime);
     if (!result.output) throw EnvironmentError("the checks do not terminate: {}", result.reason);
     std::vector<std::vector<EvaluatedCheck>> all;
-    for (GradedSubmission& judged : result.output->judged) {
-        if (!judged.reason.empty()) throw EnvironmentError("the checks do not terminate: {}", judged.reason);
-        all.push_back(std::move(judged.checks));
+    for (GradedSubmission& submission_result : result.output->judged) {
+        if (!submission_result.reason.empty())
+            throw EnvironmentError("the checks do not terminate: {}", submission_result.reason);
+        all.push_back(std::move(submission_result.checks));
     }
     return all;
 }
 
 /// Runs each check in its own sandbox. Only the checks that do not finish there have no result.
-std::vector<GradingRules::CheckAttempt> GradingRules::verdicts_one_by_one(const Work& work) const {
+std::vector<GradingRules::CheckAttempt> GradingRules::separate_check_attempts(const Work& work) const {
     const Message unreadable_result = Message("the result of the run cannot be read");
     std::vector<CheckAttempt> all;
     for (std::size_t k = 0; k < checks_.size(); ++k) {
@@ -259,30 +260,32 @@ std::vector<GradingRules::CheckAttempt> GradingRules::verdicts_one_by_one(const 
         const bool answered = alone.output && alone.output->judged.size() == 1;
         if (!answered)
             all.push_back({{}, alone.output ? unreadable_result : alone.reason});
-        else if (const GradedSubmission& judged = alone.output->judged.front(); judged.checks.size() == 1)
-            all.push_back({judged.checks.front(), {}});
+        else if (const GradedSubmission& submission_result = alone.output->judged.front();
+                 submission_result.checks.size() == 1)
+            all.push_back({submission_result.checks.front(), {}});
         else
-            all.push_back({{}, judged.reason.empty() ? unreadable_result : judged.reason});
+            all.push_back({{}, submission_result.reason.empty() ? unreadable_result : submission_result.reason});
     }
     return all;
 }
 
 /// Answers that crash or block one check also stop the other checks of their submission; each check is then run
 /// separately.
-std::vector<std::vector<GradingRules::CheckAttempt>> GradingRules::verdicts(std::vector<Work>& works) const {
+std::vector<std::vector<GradingRules::CheckAttempt>> GradingRules::check_attempts(std::vector<Work>& works) const {
     const SandboxResult<CheckResults> together = checked(works, kSingleTime);
     const bool answered = together.output && together.output->judged.size() == works.size();
     std::vector<std::vector<CheckAttempt>> all(works.size());
     for (std::size_t i = 0; i < works.size(); ++i) {
-        GradedSubmission judged{{}, together.reason, together.seconds};
-        if (answered) judged = together.output->judged[i];
-        works[i].log += fmt::format("checks: {:.3f} s in their box{}\n", judged.seconds,
-                                    judged.reason.empty() ? "" : "; " + message_text(judged.reason));
-        if (judged.checks.size() != checks_.size()) {
-            all[i] = verdicts_one_by_one(works[i]);
+        GradedSubmission submission_result{{}, together.reason, together.seconds};
+        if (answered) submission_result = together.output->judged[i];
+        works[i].log +=
+            fmt::format("checks: {:.3f} s in their box{}\n", submission_result.seconds,
+                        submission_result.reason.empty() ? "" : "; " + message_text(submission_result.reason));
+        if (submission_result.checks.size() != checks_.size()) {
+            all[i] = separate_check_attempts(works[i]);
             continue;
         }
-        for (EvaluatedCheck& one : judged.checks) all[i].push_back({std::move(one), {}});
+        for (EvaluatedCheck& one : submission_result.checks) all[i].push_back({std::move(one), {}});
     }
     return all;
 }
@@ -323,7 +326,7 @@ CheckedSubmission GradingRules::work_in(const fs::path& folder, const GroupSeed&
     if (document_) work.findings = findings(folder, group_seed);
     const fs::path script = folder / "analysis.lua";
     std::error_code error;
-    if (fs::file_size(script, error) <= kMostSource && !error) work.source = read_file(script);
+    if (fs::file_size(script, error) <= kMaxCheckedSourceBytes && !error) work.source = read_file(script);
     for (auto& [name, run] : work.runs)
         if (of_notebook && run.error)
             run.error = with_places_in_notebook(*run.error, "analysis.lua", "analysis.ipynb", work.source);
@@ -333,13 +336,13 @@ CheckedSubmission GradingRules::work_in(const fs::path& folder, const GroupSeed&
 Grade GradingRules::grade(const std::string& name, const fs::path& folder, const GroupSeed& group_seed) const {
     std::string log;
     CheckedSubmission work = work_in(folder, group_seed, log);
-    return judged({{name, std::move(work), group_seed, std::move(log)}}).front();
+    return grade_all({{name, std::move(work), group_seed, std::move(log)}}).front();
 }
 
-std::vector<Grade> GradingRules::judged(std::vector<Work> works) const {
+std::vector<Grade> GradingRules::grade_all(std::vector<Work> works) const {
     std::vector<Grade> grades;
     if (works.empty()) return grades;
-    const std::vector<std::vector<CheckAttempt>> found = verdicts(works);
+    const std::vector<std::vector<CheckAttempt>> found = check_attempts(works);
     for (std::size_t i = 0; i < works.size(); ++i) grades.push_back(grade_of(std::move(works[i]), found[i]));
     return grades;
 }
@@ -356,18 +359,18 @@ Grade GradingRules::grade_of(Work&& work, const std::vector<CheckAttempt>& found
     grade.printed = main.printed;
     for (std::size_t k = 0; k < grade.checks.size(); ++k) {
         CheckGrade& check = grade.checks[k];
-        const auto& [verdict, reason] = found.at(k);
+        const auto& [outcome, reason] = found.at(k);
         if (check.by_hand) continue;
-        check.for_instructor = verdict ? verdict->for_instructor : reason;
+        check.for_instructor = outcome ? outcome->for_instructor : reason;
         if (!check.for_instructor.empty())
             grade.log += fmt::format("check {}: {}\n", check.id, message_text(check.for_instructor));
-        if (!verdict) {
+        if (!outcome) {
             check.graded = false;
             check.message = Message("The check could not be run on these answers.");
             continue;
         }
-        check.earned = check.points * verdict->share.value_or(0);
-        check.message = verdict->message;
+        check.earned = check.points * outcome->share.value_or(0);
+        check.message = outcome->message;
         if (!check.visible && !check.message.empty() && check.for_instructor.empty())
             grade.log += fmt::format("check {}: {}\n", check.id, message_text(check.message));
     }

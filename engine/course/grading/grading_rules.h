@@ -62,7 +62,7 @@ class GradingRules {
     };
     /// Runs the checks on all submissions. One sandbox serves all of them, because starting a sandbox takes longer than
     /// most checks; inside, each submission has its own process.
-    std::vector<Grade> judged(std::vector<Work> works) const;
+    std::vector<Grade> grade_all(std::vector<Work> works) const;
     /// Runs and checks the submission in `folder`.
     Grade grade(const std::string& name, const std::filesystem::path& folder, const GroupSeed& group_seed = {}) const;
     /// Grade of a submission that cannot be run: no check is graded.
@@ -104,15 +104,15 @@ class GradingRules {
     Issues findings(const std::filesystem::path& folder, const GroupSeed& group_seed) const;
     /// The declared checks, and the requested data sets.
     SandboxResult<CheckResults> listed(std::vector<RequestedDataSet> data_sets = {}) const;
-    SandboxResult<CheckResults> checked(const std::vector<Work>& works, std::chrono::milliseconds most,
+    SandboxResult<CheckResults> checked(const std::vector<Work>& works, std::chrono::milliseconds max_time,
                                         std::optional<std::size_t> only = {}) const;
     /// `result` is empty if a check has no result; the reason is given instead.
     struct CheckAttempt {
         std::optional<EvaluatedCheck> result;
         Message reason;
     };
-    std::vector<std::vector<CheckAttempt>> verdicts(std::vector<Work>& works) const;
-    std::vector<CheckAttempt> verdicts_one_by_one(const Work& work) const;
+    std::vector<std::vector<CheckAttempt>> check_attempts(std::vector<Work>& works) const;
+    std::vector<CheckAttempt> separate_check_attempts(const Work& work) const;
     Grade grade_of(Work&& work, const std::vector<CheckAttempt>& found) const;
     std::map<std::string, PlantVariants> variants_of(const GroupSeed& group_seed) const;
     std::vector<std::string> simulated() const;

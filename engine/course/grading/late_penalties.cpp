@@ -26,11 +26,11 @@ std::string shown_instant(std::int64_t instant) {
 Message reason_of(const LatePolicy& policy, std::int64_t received) {
     const std::string came = shown_instant(received), due = shown_instant(policy.deadline);
     const Message duration = duration_message(received - policy.deadline);
-    if (policy.most_percent < 100)
+    if (policy.max_percent < 100)
         return Message(
             "received {}, {} after the deadline of {}; the penalty is {} % of the points for each day or part of a "
             "day, at most {} %",
-            came, duration, due, significant(policy.percent_per_day, 4), significant(policy.most_percent, 4));
+            came, duration, due, significant(policy.percent_per_day, 4), significant(policy.max_percent, 4));
     return Message(
         "received {}, {} after the deadline of {}; the penalty is {} % of the points for each day or part of a day",
         came, duration, due, significant(policy.percent_per_day, 4));
@@ -41,7 +41,7 @@ Message reason_of(const LatePolicy& policy, std::int64_t received) {
 Lateness lateness_of(const LatePolicy& policy, std::int64_t received) {
     const std::int64_t late = received - policy.deadline;
     if (late <= policy.grace) return {};
-    return {static_cast<double>(late) / 3600, late_percent(policy.percent_per_day, policy.most_percent, late),
+    return {static_cast<double>(late) / 3600, late_percent(policy.percent_per_day, policy.max_percent, late),
             reason_of(policy, received), late};
 }
 

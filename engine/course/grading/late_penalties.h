@@ -6,7 +6,7 @@ namespace dynlab::inline course {
 /// A deadline, and what missing it costs.
 struct LatePolicy {
     std::int64_t deadline = 0, grace = 0;  ///< seconds since 1970; seconds
-    double percent_per_day = 10, most_percent = 100;
+    double percent_per_day = 10, max_percent = 100;
 };
 /// Of what was received then; times are shown in the process's time zone.
 Lateness lateness_of(const LatePolicy& policy, std::int64_t received);

@@ -200,8 +200,9 @@ void MarksFile::write() const {
 ManualMarks::ManualMarks(const fs::path& results, const ClassWork& work, const std::vector<CheckDescription>& checks,
                          bool above_maximum) {
     const MarkedItems items(work);
-    std::map<std::string, double> most;  // by check
-    for (const CheckDescription& check : checks) most[check.id] = check.points, most[kWholeSubmission] += check.points;
+    std::map<std::string, double> max_points;  // by check
+    for (const CheckDescription& check : checks)
+        max_points[check.id] = check.points, max_points[kWholeSubmission] += check.points;
     const MarksFile file(results);
     for (const MarksFile::Row& row : file.rows()) {
         if (!row.points) continue;
@@ -209,10 +210,10 @@ ManualMarks::ManualMarks(const fs::path& results, const ClassWork& work, const s
             complaints_.push_back(Message("{}, line {}: {}", kMarksFile, row.line, what));
         };
         const MarkedItems::Found found = items.find(row.who);
-        const auto check = most.find(row.check);
+        const auto check = max_points.find(row.check);
         if (found.items.empty())
             complain(found.error_reason);
-        else if (check == most.end())
+        else if (check == max_points.end())
             complain(Message("unknown check \"{}\" (for \"{}\"); * means the complete submission", row.check, row.who));
         else if (*row.points > check->second && !above_maximum)
             complain(

@@ -61,7 +61,7 @@ std::vector<Message> GradingRules::try_solution(const fs::path& memory, bool run
     for (const auto& [name, run] : kept->work.runs) solution_seconds_[name] = run.seconds;
     std::vector<Message> complaints;
     const std::map<std::string, GradedRun> runs = kept->work.runs;
-    const Grade solution = judged({{"solution", std::move(kept->work), {}, log}}).front();
+    const Grade solution = grade_all({{"solution", std::move(kept->work), {}, log}}).front();
     if (!solution.error_reason.empty())
         complaints.push_back(Message("the reference solution stopped: {}", solution.error_reason));
     for (std::size_t k = 0; k < solution.checks.size(); ++k) {
@@ -76,14 +76,14 @@ std::vector<Message> GradingRules::try_solution(const fs::path& memory, bool run
 }
 
 std::optional<Message> GradingRules::note_on_time() const {
-    const double most = std::chrono::duration<double>(setup_.time.processor).count();
+    const double max_seconds = std::chrono::duration<double>(setup_.time.processor).count();
     double longest = 0;
     for (const auto& [name, seconds] : solution_seconds_) longest = std::max(longest, seconds);
-    if (longest <= kMuchOfTheTime * most) return {};
+    if (longest <= kMuchOfTheTime * max_seconds) return {};
     return Message(
         "a run of the reference solution uses {} s of processor time, and submissions may use {} s ({} times as much). "
         "Increase --timeout, or students with slower scripts lose marks",
-        decimals(longest, 1), significant(most, 6), decimals(most / longest, 1));
+        decimals(longest, 1), significant(max_seconds, 6), decimals(max_seconds / longest, 1));
 }
 
 }  // namespace dynlab::inline course

@@ -56,9 +56,9 @@ class FolderCopier {
 
 }  // namespace
 
-FolderCopy copy_folder(const fs::path& from, const fs::path& to, std::uint64_t most_bytes, int most_files) {
+FolderCopy copy_folder(const fs::path& from, const fs::path& to, std::uint64_t max_bytes, int max_files) {
     try {
-        FolderCopier copying(most_bytes, most_files);
+        FolderCopier copying(max_bytes, max_files);
         copying.copy(from, to, {}, 0);
         return copying.result();
     } catch (const fs::filesystem_error& error) {

@@ -17,8 +17,8 @@ struct FolderCopy {
 
 /// Copies files and folders, hidden ones excepted, into `to`, an empty folder. The link `data` that dynlab new makes
 /// leads to the course's data, whatever it led to before. No other link is followed or copied. Files keep their times.
-FolderCopy copy_folder(const std::filesystem::path& from, const std::filesystem::path& to, std::uint64_t most_bytes,
-                       int most_files);
+FolderCopy copy_folder(const std::filesystem::path& from, const std::filesystem::path& to, std::uint64_t max_bytes,
+                       int max_files);
 
 /// All plain files below, sorted; without links, hidden ones and what systems add (__MACOSX).
 std::vector<std::filesystem::path> files_below(const std::filesystem::path& folder);

@@ -248,10 +248,10 @@ std::vector<Owners::Evidence> Owners::evidence_in(const Words& words) const {
             const auto [first, last] = person_words_.equal_range(part);
             for (auto person = first; person != last; ++person)
                 all.push_back({begin, end, owner_of_[person->second], person->second, false});
-            const bool tells = begin == 0 || (joined_words(part).size() >= kMinInnerLength &&
-                                              !(part.size() == 1 && is_number_word(part.front())));
+            const bool may_match_group = begin == 0 || (joined_words(part).size() >= kMinInnerLength &&
+                                                        !(part.size() == 1 && is_number_word(part.front())));
             const auto [one, beyond] = group_words_.equal_range(part);
-            for (auto group = one; tells && group != beyond; ++group)
+            for (auto group = one; may_match_group && group != beyond; ++group)
                 all.push_back({begin, end, group->second, 0, true});
         }
     std::erase_if(all, [longer = all](const Evidence& e) {
@@ -336,8 +336,8 @@ Owners::Found Owners::called(const std::string& name) const {
     for (std::size_t i = 0; i < students_.size() && owners.empty(); ++i)
         if (!name.empty() && (students_[i].moodle == name || students_[i].canvas == name))
             owners.push_back(owner_of_[i]);
-    const bool nobody = owners.empty() && !requested.empty();
-    for (std::size_t i = 0; i < students_.size() && nobody; ++i) {
+    const bool unmatched = owners.empty() && !requested.empty();
+    for (std::size_t i = 0; i < students_.size() && unmatched; ++i) {
         const Words parts = name_words(students_[i].name);
         const auto bears = [&parts](const std::string& word) { return std::ranges::find(parts, word) != parts.end(); };
         if (std::ranges::all_of(requested, bears)) owners.push_back(owner_of_[i]);

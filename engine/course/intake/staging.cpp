@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char kScript[] = "analysis.lua";
-constexpr int kMostArchives = 8, kMaxNesting = 3;
+constexpr int kMaxArchives = 8, kMaxNesting = 3;
 constexpr auto kSameTime = std::chrono::seconds(2);  // the step of times in a zip
 
 /// A place where a script was found.
@@ -79,8 +79,8 @@ std::optional<FoundScript> newest_of(const std::vector<FoundScript>& found) {
 
 /// PowerShell's > writes UTF-16. Only a byte order mark at the start of the file shows this encoding.
 void make_utf8(const fs::path& script) {
-    constexpr std::uintmax_t kMostText = 4u << 20;
-    if (fs::file_size(script) > kMostText) return;
+    constexpr std::uintmax_t kMaxTextBytes = 4u << 20;
+    if (fs::file_size(script) > kMaxTextBytes) return;
     const std::string bytes = read_file(script), mark = bytes.substr(0, 2);
     if (mark != "\xFF\xFE" && mark != "\xFE\xFF") return;
     const fs::file_time_type written = fs::last_write_time(script);
@@ -221,7 +221,7 @@ class Stager {
 
     void open_archives(const fs::path& folder, const std::string& shown, int depth, std::vector<FoundScript>& found) {
         for (const fs::path& file : files_below(folder)) {
-            if (!archive_stem(file.filename().string()) || ++opened_ > kMostArchives) continue;
+            if (!archive_stem(file.filename().string()) || ++opened_ > kMaxArchives) continue;
             const fs::path to = to_ / fmt::format("archive-{}", opened_);
             const std::string name = shown + (shown.empty() ? "" : "/") + shown_place(file, folder);
             try {

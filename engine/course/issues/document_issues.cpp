@@ -83,15 +83,15 @@ DocumentStandard standard_for(const DocumentText& text, const CheckOptions& chec
 Message page_summary(const DocumentText& text, int pages, const DocumentRules& rules) {
     const bool slides = text.is_slides();
     if (!rules.pages) return slides ? plural(pages, "{} slide", "{} slides") : plural(pages, "{} page", "{} pages");
-    const int most = *rules.pages;
+    const int max_pages = *rules.pages;
     if (!rules.appendix_pages)
-        return slides ? plural(pages, "{} slide (limit: {})", "{} slides (limit: {})", most)
-                      : plural(pages, "{} page (limit: {})", "{} pages (limit: {})", most);
+        return slides ? plural(pages, "{} slide (limit: {})", "{} slides (limit: {})", max_pages)
+                      : plural(pages, "{} page (limit: {})", "{} pages (limit: {})", max_pages);
     const int more = *rules.appendix_pages;
     return slides ? plural(pages, "{} slide (limit: {}, plus {} in the appendix)",
-                           "{} slides (limit: {}, plus {} in the appendix)", most, more)
+                           "{} slides (limit: {}, plus {} in the appendix)", max_pages, more)
                   : plural(pages, "{} page (limit: {}, plus {} in the appendix)",
-                           "{} pages (limit: {}, plus {} in the appendix)", most, more);
+                           "{} pages (limit: {}, plus {} in the appendix)", max_pages, more);
 }
 
 /// Checks what can be read; `result` knows the file already.

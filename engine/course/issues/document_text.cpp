@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kHeadingSize = 1.12;  ///< a heading's size over that of the prose when it is not bold
 constexpr double kWordGap = 0.2;       ///< of the size: more is a space, whether the file says so or not
-constexpr std::size_t kLongestHeading = 14;
+constexpr std::size_t kMaxHeadingWords = 14;
 
 std::size_t letters_in(const std::string& text) {
     const std::string plain = folded(text);
@@ -143,7 +143,7 @@ double median_size(const std::vector<TextLine>& lines) {
 }
 
 bool looks_like_heading(const TextLine& line, double body_size) {
-    if (line.fixed_width || line.words.size() > kLongestHeading || letters_in(line.text()) < 3) return false;
+    if (line.fixed_width || line.words.size() > kMaxHeadingWords || letters_in(line.text()) < 3) return false;
     return line.size > kHeadingSize * body_size || (line.bold && line.size > 0.95 * body_size);
 }
 

@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kWindow = 30;      ///< words that are looked at together
 constexpr int kForeignPassageWords = 6;  ///< function words of the other language among them that make a passage
 constexpr int kKnownLanguageWords = 15;  ///< function words a document needs for its language to be known
-constexpr std::size_t kMostForeignPassages = 5;
+constexpr std::size_t kMaxForeignPassages = 5;
 
 // Words that both languages have ("on", "or", "son", "a", "plus"...) are left out.
 const std::set<std::string> kEnglishWords = {
@@ -47,7 +47,7 @@ std::string quote(const DocumentText& text, std::size_t from, std::size_t count)
 /// The language of each word. Quotations and titles, « … » or “ … ”, keep the language they are in; what is not closed
 /// soon is no quotation.
 std::vector<Language> word_languages(const DocumentText& text) {
-    constexpr std::size_t kLongestQuotation = 60;  // words
+    constexpr std::size_t kMaxQuotationWords = 60;  // words
     std::vector<Language> languages;
     std::size_t opened = 0;
     bool quoted = false;
@@ -59,7 +59,7 @@ std::vector<Language> word_languages(const DocumentText& text) {
             opened = i;
         }
         if (!quoted || (word.find("»") == std::string::npos && word.find("”") == std::string::npos)) continue;
-        if (i - opened <= kLongestQuotation)
+        if (i - opened <= kMaxQuotationWords)
             std::fill(languages.begin() + static_cast<std::ptrdiff_t>(opened), languages.end(), Language::kUnknown);
         quoted = false;
     }
@@ -77,7 +77,7 @@ Issues passages(const DocumentText& text, const std::vector<Language>& languages
     for (std::size_t end = 0; end < languages.size(); ++end) {
         count(end, 1);
         if (end >= kWindow) count(end - kWindow, -1);
-        if (foreign < kForeignPassageWords || foreign < 3 * own || findings.size() >= kMostForeignPassages) continue;
+        if (foreign < kForeignPassageWords || foreign < 3 * own || findings.size() >= kMaxForeignPassages) continue;
         std::size_t start = end + 1 - std::min(end + 1, kWindow);
         while (languages[start] != other) ++start;
         if (text.words[start].page == last_page) continue;

@@ -74,13 +74,13 @@ void check_size(const DocumentText& text, int pages, Issues& findings) {
          Message("Use a text size of 11 pt, as in the template. If the document becomes too long, shorten the text.")});
 }
 
-struct Strays {
+struct OutsideLines {
     int at_sides = 0, at_top = 0;
     const TextLine* first = nullptr;
 };
 
-Strays strays_on(const DocumentText& text, const PdfPage& page, int number) {
-    Strays unmatched_names;
+OutsideLines lines_outside_margins(const DocumentText& text, const PdfPage& page, int number) {
+    OutsideLines unmatched_names;
     for (const TextLine& line : text.lines) {
         if (line.page != number) continue;
         const bool at_side = line.words.size() >= 3 && (line.left < kSide || line.right > page.width - kSide);
@@ -97,7 +97,7 @@ void check_margins(const DocumentText& text, const PdfLayout& layout, Issues& fi
     Issues overflows;
     for (std::size_t i = 0; i < layout.pages.size(); ++i) {
         const int page = static_cast<int>(i) + 1;
-        const Strays unmatched_names = strays_on(text, layout.pages[i], page);
+        const OutsideLines unmatched_names = lines_outside_margins(text, layout.pages[i], page);
         if (unmatched_names.at_sides >= kManyAtSides || unmatched_names.at_top >= kManyAtTop) {
             narrow.push_back(page);
         } else if (unmatched_names.at_sides > 0) {

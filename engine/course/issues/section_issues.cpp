@@ -162,9 +162,9 @@ Issues page_findings(const DocumentText& text, int pages, const DocumentRules& r
     for (const Heading& heading : text.headings) {
         if (appendix == 0 && in_appendix > 0 && opens_appendix(heading, rules)) appendix = heading.page;
     }
-    const int most = allowed + (appendix > 0 ? in_appendix : 0);
-    if (pages <= most) return too_few_pages(text, pages, rules);
-    return {{"pages", Severity::kRule, most + 1, "",
+    const int max_pages = allowed + (appendix > 0 ? in_appendix : 0);
+    if (pages <= max_pages) return too_few_pages(text, pages, rules);
+    return {{"pages", Severity::kRule, max_pages + 1, "",
              too_many(text.is_slides() ? slides : pages_of_paper, pages, allowed, in_appendix),
              in_appendix > 0 && appendix == 0
                  ? Message("Shorten the text, or move the excess parts to a section with the heading \"Appendix\".")

@@ -83,7 +83,7 @@ void take_back_lost_rows(Course& course, const Assignment& assignment, const Cou
 /// nothing back: it is filled again. Only where marks are given in the file alone, `file_alone`, a mark whose row is
 /// not there any more, or is empty, is taken back.
 void join_rows(Course& course, const Assignment& assignment, const CourseWork& work,
-               const std::map<std::string, double>& most, const fs::path& results, bool file_alone) {
+               const std::map<std::string, double>& max_points, const fs::path& results, bool file_alone) {
     MarksFile file(results);
     const JoinedMarks joined(course, assignment);
     Transaction transaction(course.database());  // a mark that a command gives meanwhile comes with the next join
@@ -93,8 +93,9 @@ void join_rows(Course& course, const Assignment& assignment, const CourseWork& w
     std::vector<MarksFile::Row> filled;
     for (const MarksFile::Row& row : file.rows()) {
         const auto marked = work.marked_by(course, row.who);
-        const auto points = most.find(row.check);
-        if (!marked || points == most.end() || row.points > points->second) continue;  // complained of by the grading
+        const auto points = max_points.find(row.check);
+        if (!marked || points == max_points.end() || row.points > points->second)
+            continue;  // complained of by the grading
         const GivenMark* const mark = now.of(*marked, row.check);
         if (says(row, mark) || (file_alone && !row.points)) continue;
         if (row.points && !says(row, before.of(*marked, row.check)))
@@ -151,12 +152,12 @@ GradingOptions grading_options(const Assignment& assignment, const CourseGrading
 
 void join_marks(Course& course, const Assignment& assignment, const CourseWork& work, const EvaluatedRules& evaluated,
                 const GradingOptions& options, bool file_alone) {
-    std::map<std::string, double> most;  // points by check; with --force any
+    std::map<std::string, double> max_points;  // points by check; with --force any
     for (const CheckDescription& check : evaluated.rules.checks())
-        most[check.id] = check.points, most[kWholeItem] += check.points;
+        max_points[check.id] = check.points, max_points[kWholeItem] += check.points;
     if (options.above_maximum)
-        for (auto& [check, points] : most) points = std::numeric_limits<double>::infinity();
-    join_rows(course, assignment, work, most, options.out, file_alone);
+        for (auto& [check, points] : max_points) points = std::numeric_limits<double>::infinity();
+    join_rows(course, assignment, work, max_points, options.out, file_alone);
 }
 
 void save_results(Course& course, const Assignment& assignment, const CourseWork& work, const fs::path& out) {

@@ -72,7 +72,7 @@ CourseWork::CourseWork(Course& course, const Assignment& assignment, const Recei
 void CourseWork::date(WorkItem& item, const Stored& version, const Assignment& assignment) {
     item.received = version.received;
     const Costs& costs = assignment.costs;
-    item.lateness = lateness_of({version.due, assignment.grace, costs.late_day, costs.late_most}, version.first);
+    item.lateness = lateness_of({version.due, assignment.grace, costs.late_day, costs.late_max}, version.first);
     if (needs_confirmation(item.lateness) && !version.confirmed) item.lateness = unconfirmed(item.lateness);
 }
 

@@ -71,7 +71,7 @@ class RowsOfGroups {
 
     void add(std::int64_t group, const DeadlineRow& row) {
         if (row.grace != assignment_.grace || row.percent_per_day != assignment_.costs.late_day ||
-            row.most_percent != assignment_.costs.late_most)
+            row.max_percent != assignment_.costs.late_max)
             throw InvalidArgument(
                 "in a course, the grace period and the penalty are the same for all students. To give a student more "
                 "time, use the column \"extra\" or another deadline");
@@ -136,7 +136,7 @@ std::map<std::string, DeadlineRow> read_deadlines(const fs::path& file) {
         read.received = table.time(row, "received");
         read.grace = table.duration(row, "grace").value_or(read.grace);
         read.percent_per_day = table.number(row, "percent_per_day", read.percent_per_day);
-        read.most_percent = table.number(row, "most_percent", read.most_percent);
+        read.max_percent = table.number(row, "most_percent", read.max_percent);
         if (!rows.emplace(who, read).second) table.fail(row, Message("\"{}\" already has a deadline", who));
     }
     return rows;
@@ -150,7 +150,7 @@ DeadlineImport import_deadlines(Course& course, const Assignment& assignment, co
     Assignment a = assignment;
     if (all != table.end()) {
         a.first_due = all->second.deadline, a.grace = all->second.grace;
-        a.costs.late_day = all->second.percent_per_day, a.costs.late_most = all->second.most_percent;
+        a.costs.late_day = all->second.percent_per_day, a.costs.late_max = all->second.max_percent;
         set_assignment(course, a, reason);
     }
     DeadlineImport done;

@@ -14,11 +14,11 @@ struct DeadlineRow {
     Instant deadline = 0;
     std::optional<Instant> received;  ///< when it was received, if not by the time that the course has
     std::int64_t grace = 0;
-    double percent_per_day = 10, most_percent = 100;
+    double percent_per_day = 10, max_percent = 100;
 };
 /// By the names in the column `submission`; * is the row of all. Further columns: `deadline` (2026-03-01 18:00, seconds
 /// optional), and optionally `extra` (time beyond the deadline of all: "2 d", "3 h"), `received`, `grace` ("15 min"),
-/// `percent_per_day` (part of a day counts as a day) and `most_percent`. Times are in the process's time zone. Throws
+/// `percent_per_day` (part of a day counts as a day) and `max_percent`. Times are in the process's time zone. Throws
 /// EnvironmentError with file, line and column.
 std::map<std::string, DeadlineRow> read_deadlines(const std::filesystem::path& file);
 

@@ -47,7 +47,7 @@ OpenedPack made_document(const std::vector<fs::path>& files, const std::string& 
 }
 
 constexpr std::uintmax_t kLargestScript = 1 << 20;
-constexpr std::size_t kMostOfTable = 4000;
+constexpr std::size_t kMaxTableBytes = 4000;
 
 std::string without_comments(std::string_view text) {
     std::string kept;
@@ -63,11 +63,11 @@ std::string without_comments(std::string_view text) {
 /// Behind the brace of the first statement "scores = {" or "local scores = {" that begins a line.
 std::size_t begin_of_scores(const std::string& text) {
     constexpr std::string_view kName = "scores", kLocal = "local", kBlank = " \t\r\n";
-    constexpr std::size_t kMostBefore = 200;  // blanks and "local"
-    std::size_t line = 0;                     // begin of the line that holds the name
+    constexpr std::size_t kMaxCharactersBefore = 200;  // blanks and "local"
+    std::size_t line = 0;                              // begin of the line that holds the name
     for (std::size_t at = text.find(kName); at != std::string::npos; at = text.find(kName, at + 1)) {
         for (std::size_t end = text.find('\n', line); end < at; end = text.find('\n', line)) line = end + 1;
-        if (at - line > kMostBefore) continue;
+        if (at - line > kMaxCharactersBefore) continue;
         std::string_view before = std::string_view(text).substr(line, at - line);
         const auto word = before.find_first_not_of(kBlank);
         before.remove_prefix(std::min(word, before.size()));
@@ -109,7 +109,7 @@ std::map<std::string, double> scores_in_script(std::string_view script) {
     const std::size_t from = begin_of_scores(text);
     if (from == std::string::npos) return {};
     const std::size_t close = text.find('}', from);
-    if (close == std::string::npos || close - from > kMostOfTable) return {};
+    if (close == std::string::npos || close - from > kMaxTableBytes) return {};
     const std::string body = text.substr(from, close + 1 - from);
     std::map<std::string, double> scores;
     std::string name;

@@ -417,7 +417,7 @@ class SubmissionReceiver {
             received.late = standing.integer(0);
         for (std::size_t i = 0; i < a.criteria.size(); ++i) {
             const auto points = c.scores.find(a.criteria[i].name);
-            if (points == c.scores.end() || points->second > a.criteria[i].most) continue;
+            if (points == c.scores.end() || points->second > a.criteria[i].max_points) continue;
             GivenMark& score = scores_.emplace_back();
             score.group = c.pair->author, score.pair = c.pair->id;
             score.item = a.criteria[i].name, score.points = points->second;

@@ -140,7 +140,7 @@ class ClassReceiver {
             if (!files_[i].error_reason.empty()) continue;
             std::set<Instant> received;  // then, and as it was corrected
             if (is_known(one, received)) {
-                if (stands_with_others(one)) moved.push_back(i);
+                if (is_with_other_group(one)) moved.push_back(i);
                 if (files_[i].by_table && !received.contains(files_[i].at)) corrected.push_back(i);
                 continue;
             }
@@ -223,7 +223,7 @@ class ClassReceiver {
     }
 
     /// Whether the roster or the list of owners now assigns the item to another owner.
-    bool stands_with_others(const WorkItem& one) {
+    bool is_with_other_group(const WorkItem& one) {
         return course_.database()
             .query("SELECT 1 FROM standing WHERE assignment = ? AND name = ? AND hash = ? AND group_id <> ?",
                    assignment_.id, file_name(one.submission), one.content, one.group_id)

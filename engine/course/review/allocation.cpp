@@ -156,19 +156,20 @@ class Allocator {
         return sum;
     }
 
-    /// Looks for reviewers below what is wanted while no report gets more than `most`; then for reports.
-    void fill(int most) {
+    /// Looks for reviewers below what is wanted while no report gets more than `max_reviews`; then for reports.
+    void fill(int max_reviews) {
         for (const int i : order_)
-            while (board_.writes(i) < requested_ && extend(i, most)) continue;
+            while (board_.writes(i) < requested_ && extend(i, max_reviews)) continue;
         for (const int i : order_)
-            while (board_.gets(i) < requested_ && extend_backwards(i, most)) continue;
+            while (board_.gets(i) < requested_ && extend_backwards(i, max_reviews)) continue;
     }
 
     /// One more review for reviewer `from`: straight, or along the shortest chain in which each reviewer hands a loose
-    /// review on and takes another. The chain ends at a report that gets less than `most`, of these one that gets
-    /// less than wanted first.
-    bool extend(int from, int most) {
-        for (const int limit : most > requested_ ? std::vector{requested_, most} : std::vector{most})
+    /// review on and takes another. The chain ends at a report that gets less than `max_reviews`, of these one that
+    /// gets less than wanted first.
+    bool extend(int from, int max_reviews) {
+        for (const int limit :
+             max_reviews > requested_ ? std::vector{requested_, max_reviews} : std::vector{max_reviews})
             if (chain(from, [&](int author) { return board_.gets(author) < limit; })) return true;
         return false;
     }
@@ -212,10 +213,10 @@ class Allocator {
     }
 
     /// One more review for the report of `author`, from the reviewer with the fewest.
-    bool extend_backwards(int author, int most) {
+    bool extend_backwards(int author, int max_reviews) {
         int best = -1;
         for (const int reviewer : order_)
-            if (board_.free(reviewer, author) && board_.writes(reviewer) < most &&
+            if (board_.free(reviewer, author) && board_.writes(reviewer) < max_reviews &&
                 (best < 0 || rank(reviewer, author) < rank(best, author)))
                 best = reviewer;
         if (best >= 0) board_.add(best, author);

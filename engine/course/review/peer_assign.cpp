@@ -97,7 +97,7 @@ class ReviewAssigner {
     /// Assigns pseudonyms that reveal nothing about the group: random numbers for each assignment and role, without
     /// repetition.
     void give_pseudonyms() {
-        const auto most = static_cast<std::size_t>(std::max(99, 3 * problem_.groups));
+        const auto max_number = static_cast<std::size_t>(std::max(99, 3 * problem_.groups));
         for (const char* role : {"author", "reviewer"}) {
             std::map<std::int64_t, std::int64_t> given;
             std::set<std::int64_t> taken;
@@ -110,7 +110,7 @@ class ReviewAssigner {
             for (std::size_t i = 0; i < groups_.size(); ++i) {
                 if (!problem_.active[i] || given.contains(groups_[i].id)) continue;
                 std::int64_t number = 0;
-                do number = 1 + static_cast<std::int64_t>(secure_below(most));
+                do number = 1 + static_cast<std::int64_t>(secure_below(max_number));
                 while (!taken.insert(number).second);
                 db_.run("INSERT INTO pseudonyms VALUES (?, ?, ?, ?)", assignment_.id, groups_[i].id, role, number);
             }

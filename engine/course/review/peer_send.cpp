@@ -132,9 +132,9 @@ class CopySender {
             return;
         }
         const auto before = sent_before(pair);
-        const bool stands = to_reviewers() || pair.written;
-        if (before && stands) put(pair, *before);  // a crash may have come before the file
-        if (before && stands && !(to_reviewers() ? pair.newer_report : pair.newer_review)) {
+        const bool is_sendable = to_reviewers() || pair.written;
+        if (before && is_sendable) put(pair, *before);  // a crash may have come before the file
+        if (before && is_sendable && !(to_reviewers() ? pair.newer_report : pair.newer_review)) {
             ++outcome_.before;
             return;
         }

@@ -51,8 +51,8 @@ class ReviewMarker {
             const auto own = instructor_s(r.author, c);
             const auto others = own ? own : median(scores(r.author, c, &r));
             if (!others || !r.points[c]) continue;
-            distances.push_back(std::abs(*r.points[c] - *others) / criteria_[c].most);
-            below.push_back((*others - *r.points[c]) / criteria_[c].most);
+            distances.push_back(std::abs(*r.points[c] - *others) / criteria_[c].max_points);
+            below.push_back((*others - *r.points[c]) / criteria_[c].max_points);
         }
         mark.distance = mean(distances);
         mark.outlier = !below.empty() && *mean(below) > kOutlierDistance;
@@ -103,11 +103,11 @@ const GivenMark* instructors_word(const std::vector<GivenMark>& given, std::int6
 }  // namespace
 
 std::optional<double> percent_of(const std::vector<Criterion>& criteria, const CriterionPoints& points) {
-    double sum = 0, most = 0;
+    double sum = 0, max_points = 0;
     for (std::size_t c = 0; c < criteria.size(); ++c)
-        if (points[c]) sum += *points[c], most += criteria[c].most;
-    if (most == 0) return {};
-    return 100 * sum / most;
+        if (points[c]) sum += *points[c], max_points += criteria[c].max_points;
+    if (max_points == 0) return {};
+    return 100 * sum / max_points;
 }
 
 GivenPoints points_by_owner(const Assignment& assignment, const std::vector<GivenMark>& marks) {

@@ -32,7 +32,7 @@ struct ScoredReview {
 
 struct ReviewMark {
     std::int64_t pair = 0;
-    std::optional<double> distance;  ///< mean over the criteria of |points - median of the others| / most
+    std::optional<double> distance;  ///< mean over the criteria of |points - median of the others| / max_points
     bool outlier = false;            ///< far below the others: mean of (median of the others - points)/most above 0.35
     bool retaliation = false;        ///< an outlier against a group that had reviewed this reviewer's report badly
 };

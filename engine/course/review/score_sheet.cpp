@@ -103,9 +103,9 @@ class ScoreReader {
         mark.item = criterion.name;
         if (text != "-") {
             mark.points = number_in_cell(text);
-            if (!mark.points || !(*mark.points >= 0 && *mark.points <= criterion.most))
+            if (!mark.points || !(*mark.points >= 0 && *mark.points <= criterion.max_points))
                 fail(table_.lines[row_], Message("{} must be a number from 0 to {}, but \"{}\" was given",
-                                                 criterion.name, criterion.most, text));
+                                                 criterion.name, criterion.max_points, text));
         }
         marks_.push_back(std::move(mark));
     }

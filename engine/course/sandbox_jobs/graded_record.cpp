@@ -4,8 +4,8 @@
 namespace dynlab::inline course {
 namespace {
 
-constexpr std::size_t kPrinted = 4000;                      // characters that are kept of the end
-constexpr std::size_t kMostGiven = kMaxGradedRunBytes / 2;  // bytes as they are, which escapes can make more
+constexpr std::size_t kPrinted = 4000;                           // characters that are kept of the end
+constexpr std::size_t kMaxAnswerBytes = kMaxGradedRunBytes / 2;  // bytes as they are, which escapes can make more
 
 std::string end_of_printed(const RunRecord& record, const PercentScript& script) {
     std::string printed;
@@ -22,7 +22,7 @@ std::string end_of_printed(const RunRecord& record, const PercentScript& script)
 void keep_what_fits(GradedRun& run) {
     std::size_t used = 0;
     const auto fits = [&](std::size_t bytes) {
-        if (used + bytes > kMostGiven) return false;
+        if (used + bytes > kMaxAnswerBytes) return false;
         used += bytes;
         return true;
     };
@@ -34,7 +34,7 @@ void keep_what_fits(GradedRun& run) {
         if (!run.error)
             run.error = Message(
                 "the answer \"{}\" is too large. All answers together can have at most {} MB, so submit fewer numbers",
-                answer->first, kMostGiven >> 20);
+                answer->first, kMaxAnswerBytes >> 20);
         answer = run.answers.erase(answer);
     }
     for (std::vector<std::string>* names : {&run.figures, &run.values})

@@ -21,7 +21,7 @@
 namespace dynlab::inline course {
 namespace {
 
-constexpr std::size_t kMostOutput = 4u << 20;  // of printed text
+constexpr std::size_t kMaxPrintedBytes = 4u << 20;  // of printed text
 constexpr int kOpenFiles = 64;
 constexpr int kClockMultiple = 1000;  // the sandbox's own clock limit comes first
 
@@ -67,7 +67,7 @@ RunOptions options_of(const RunJob& job, const PercentScript& script) {
     options.script_folder = script.file.parent_path();
     options.out_folder = std::filesystem::temp_directory_path();
     options.memory_limit_bytes = job.memory_bytes;
-    options.output_limit_bytes = kMostOutput;
+    options.output_limit_bytes = kMaxPrintedBytes;
     options.time = TimeLimits{std::chrono::milliseconds(job.time_ms), kClockMultiple};
     options.graded = true;
     return options;

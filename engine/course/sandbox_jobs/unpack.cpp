@@ -28,7 +28,7 @@ constexpr int kMaxArchiveDepth = 20;
 
 /// Why an entry of this name must not be in a folder, as a clause; nothing where it may.
 std::optional<Message> objection_to(const fs::path& path) {
-    constexpr std::size_t kLongestName = 255;  // of a file system
+    constexpr std::size_t kMaxNameLength = 255;  // of a file system
     const std::string& text = path.native();
     const Message outside = Message("\"{}\" points outside the archive", text);
     const bool on_a_drive = text.size() > 1 && std::isalpha(static_cast<unsigned char>(text[0])) && text[1] == ':';
@@ -38,7 +38,7 @@ std::optional<Message> objection_to(const fs::path& path) {
         if (part == "..") return outside;
         if (++depth > kMaxArchiveDepth)
             return Message("\"{}\" is nested deeper than {} folders", text, kMaxArchiveDepth);
-        if (part.native().size() > kLongestName) return Message("\"{}\" has a name that is too long", text);
+        if (part.native().size() > kMaxNameLength) return Message("\"{}\" has a name that is too long", text);
         for (const unsigned char c : part.native())
             if (c < 0x20 || c == 0x7F) return Message("\"{}\" has a name with control characters", text);
     }
@@ -49,9 +49,9 @@ class Unpacker {
   public:
     explicit Unpacker(const UnpackJob& job)
         : to_(job.to),
-          most_bytes_(job.bytes),
+          max_bytes_(job.bytes),
           bytes_left_(job.bytes),
-          most_files_(job.files),
+          max_files_(job.files),
           files_left_(job.files),
           keep_times_(job.keep_times),
           archive_(archive_read_new(), archive_read_free) {
@@ -80,7 +80,7 @@ class Unpacker {
     }
 
     void take(archive_entry* entry) {
-        if (--files_left_ < 0) throw EnvironmentError("the archive contains more than {} files", most_files_);
+        if (--files_left_ < 0) throw EnvironmentError("the archive contains more than {} files", max_files_);
         const char* const name = archive_entry_pathname(entry);
         if (name == nullptr || *name == '\0')
             return leave_out(entry, Message("the name of a file in the archive cannot be read"));
@@ -111,7 +111,7 @@ class Unpacker {
     }
 
     void use(std::uint64_t bytes) {
-        if (bytes > bytes_left_) throw EnvironmentError("the archive exceeds {} MB when unpacked", most_bytes_ >> 20);
+        if (bytes > bytes_left_) throw EnvironmentError("the archive exceeds {} MB when unpacked", max_bytes_ >> 20);
         bytes_left_ -= bytes;
     }
 
@@ -131,8 +131,8 @@ class Unpacker {
     }
 
     fs::path to_;
-    std::uint64_t most_bytes_, bytes_left_;
-    int most_files_, files_left_;
+    std::uint64_t max_bytes_, bytes_left_;
+    int max_files_, files_left_;
     bool keep_times_;
     Utf8Locale names_;  // libarchive gives names in the character set of the locale
     Archive archive_;

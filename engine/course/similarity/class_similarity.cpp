@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMostComparedBytes = 1u << 20;  // of a script that is compared
+constexpr std::uintmax_t kMaxComparedBytes = 1u << 20;  // of a script that is compared
 
 /// The Lua files that lie directly in a folder; none for a zip.
 std::vector<fs::path> scripts_in(const fs::path& folder) {
@@ -33,7 +33,7 @@ std::vector<fs::path> scripts_in(const fs::path& folder) {
 void add_scripts(const fs::path& from, const std::string& prefix, bool of_class, const SimilarityRequest& request,
                  std::vector<ComparedScript>& scripts, std::vector<Message>& complaints) {
     const auto add = [&](const std::string& name, const fs::path& file) {
-        if (fs::file_size(file) > kMostComparedBytes)
+        if (fs::file_size(file) > kMaxComparedBytes)
             complaints.push_back(Message("\"{}\" is too large for the comparison", name));
         else
             scripts.push_back({prefix + name, read_file(file), of_class});

@@ -185,8 +185,8 @@ std::string whole_percent(double share) {
     return fmt::format("{:.0f} %", 100 * share);
 }
 
-std::string percent_range(double least, double most) {
-    const std::string from = whole_percent(least), to = whole_percent(most);
+std::string percent_range(double low, double high) {
+    const std::string from = whole_percent(low), to = whole_percent(high);
     return from == to ? to : fmt::format("{:.0f} to {}", 100 * least, to);
 }
 
@@ -224,7 +224,7 @@ std::string names_of(const std::vector<ComparedScript>& scripts, const SimilarGr
 }
 
 std::string heading_of(const std::vector<ComparedScript>& scripts, const SimilarGroup& group) {
-    const std::string share = percent_range(group.least_share, group.most_share);
+    const std::string share = percent_range(group.min_share, group.max_share);
     if (group.members.size() == 2) return fmt::format("{}: {}", names_of(scripts, group), share);
     const std::string first = readable_markdown(scripts[group.members[0]].name);
     return fmt::format("{} and {} others: {}", first, group.members.size() - 1,
@@ -272,21 +272,21 @@ std::vector<SimilarGroup> similar_groups(const std::vector<ComparedScript>& scri
                 group.identical = group.identical && scripts[member].source == scripts[group.members[0]].source;
         }
         SimilarGroup& group = groups[found->second];
-        group.least_share = std::min(group.least_share, pair.share);
-        group.most_share = std::max(group.most_share, pair.share);
-        group.least_lines = std::min(group.least_lines, pair.same_lines);
+        group.min_share = std::min(group.min_share, pair.share);
+        group.max_share = std::max(group.max_share, pair.share);
+        group.min_lines = std::min(group.min_lines, pair.same_lines);
     }
     std::ranges::stable_sort(groups, [](const SimilarGroup& x, const SimilarGroup& y) {
         const bool large_x = x.members.size() > 2, large_y = y.members.size() > 2;
         if (large_x || large_y) return x.members.size() > y.members.size();
-        return x.most_share > y.most_share;
+        return x.max_share > y.max_share;
     });
     return groups;
 }
 
 std::string similarity_in_markdown(const std::vector<ComparedScript>& scripts, const std::vector<SimilarGroup>& groups,
                                    double line) {
-    constexpr std::size_t most = kMaxShownGroups;
+    constexpr std::size_t max_shown = kMaxShownGroups;
     std::string text = fmt::format(
         "# Similar scripts\n\n{} scripts were compared without comments, layout and chosen names; code of the starter "
         "does not count. The list contains copies, and pairs with {} or more of the shorter script's own code in "
@@ -295,15 +295,16 @@ std::string similarity_in_markdown(const std::vector<ComparedScript>& scripts, c
         scripts.size(), whole_percent(line));
     if (groups.empty()) return text + "There are none.\n";
     text += "| scripts | code in common | identical lines |\n|---|---|---|\n";
-    for (std::size_t k = 0; k < std::min(most, groups.size()); ++k) {
+    for (std::size_t k = 0; k < std::min(max_shown, groups.size()); ++k) {
         const SimilarGroup& group = groups[k];
         text += fmt::format("| {} | {} | {} |\n", names_of(scripts, group),
-                            group.identical ? "identical files" : percent_range(group.least_share, group.most_share),
-                            group.members.size() > 2 && !group.identical ? whole_percent(group.least_lines) + " or more"
-                                                                         : whole_percent(group.least_lines));
+                            group.identical ? "identical files" : percent_range(group.min_share, group.max_share),
+                            group.members.size() > 2 && !group.identical ? whole_percent(group.min_lines) + " or more"
+                                                                         : whole_percent(group.min_lines));
     }
-    if (groups.size() > most) text += fmt::format("\n{} further pairs are in similarity.csv.\n", groups.size() - most);
-    for (std::size_t k = 0; k < std::min(most, groups.size()); ++k) {
+    if (groups.size() > max_shown)
+        text += fmt::format("\n{} further pairs are in similarity.csv.\n", groups.size() - max_shown);
+    for (std::size_t k = 0; k < std::min(max_shown, groups.size()); ++k) {
         const SimilarGroup& group = groups[k];
         text += fmt::format("\n## {}\n\n", heading_of(scripts, group));
         for (const CommonPassage& passage : group.shown.passages) {

@@ -29,11 +29,11 @@ struct SimilarPair {
 /// Copies of one script, or a pair that looks alike. A script that looks like several copies is paired with one of
 /// them only.
 struct SimilarGroup {
-    std::vector<std::size_t> members;                         ///< places in the list
-    double least_share = 1, most_share = 0, least_lines = 1;  ///< of the pairs of its members
-    std::size_t copies_of_first = 0, copies_of_second = 0;    ///< of a pair: further copies, listed as another group
-    bool identical = false;                                   ///< byte for byte
-    SimilarPair shown;                                        ///< the pair of members that is most alike
+    std::vector<std::size_t> members;                       ///< places in the list
+    double min_share = 1, max_share = 0, min_lines = 1;     ///< of the pairs of its members
+    std::size_t copies_of_first = 0, copies_of_second = 0;  ///< of a pair: further copies, listed as another group
+    bool identical = false;                                 ///< byte for byte
+    SimilarPair shown;                                      ///< the pair of members that is most alike
     bool has(std::size_t script) const;
 };
 

@@ -42,7 +42,7 @@ void refuse_bad_deadlines(const Assignment& a, const CourseClock& clock) {
 }
 
 constexpr std::pair<const char*, double Costs::*> kCosts[] = {{"late-day", &Costs::late_day},
-                                                              {"late-most", &Costs::late_most},
+                                                              {"late-most", &Costs::late_max},
                                                               {"missing-final", &Costs::missing_final},
                                                               {"late-review", &Costs::late_review},
                                                               {"missing-review", &Costs::missing_review}};
@@ -56,7 +56,7 @@ std::string costs_text(const Costs& costs) {
 
 std::string criteria_text(const std::vector<Criterion>& criteria) {
     std::vector<std::string> items;
-    for (const Criterion& c : criteria) items.push_back(fmt::format("{}:{}", c.name, c.most));
+    for (const Criterion& c : criteria) items.push_back(fmt::format("{}:{}", c.name, c.max_points));
     return fmt::format("{}", fmt::join(items, ","));
 }
 
@@ -121,7 +121,7 @@ void write_criteria(Database& db, std::int64_t assignment, const std::vector<Cri
     db.run("DELETE FROM criteria WHERE assignment = ?", assignment);
     std::int64_t place = 0;
     for (const Criterion& c : criteria)
-        db.run("INSERT INTO criteria VALUES (?, ?, ?, ?)", assignment, place++, c.name, c.most);
+        db.run("INSERT INTO criteria VALUES (?, ?, ?, ?)", assignment, place++, c.name, c.max_points);
 }
 
 /// "a:5, b" as {a, 5}, {b, ""}.
@@ -258,9 +258,9 @@ std::vector<Criterion> criteria_of(const std::string& text) {
         if (!given || !(*given > 0 && *given <= 1000))
             throw InvalidArgument(
                 "the points of the criterion {} must be a number from 0 to 1000, but \"{}\" was given", name, points);
-        const double most = *given;
+        const double max_points = *given;
         if (!seen.insert(name).second) throw InvalidArgument("the criterion {} occurs twice", name);
-        criteria.push_back({name, most});
+        criteria.push_back({name, max_points});
     }
     if (criteria.empty()) throw InvalidArgument("give at least one criterion, such as clarity:5,methods:10");
     return criteria;
@@ -289,7 +289,7 @@ Costs costs_of(const std::string& text) {
 }
 
 double late_percent(const Costs& costs, std::int64_t late) {
-    return late_percent(costs.late_day, costs.late_most, late);
+    return late_percent(costs.late_day, costs.late_max, late);
 }
 
 bool waits_for_confirmation(const Costs& costs, std::int64_t late, bool confirmed) {

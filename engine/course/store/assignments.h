@@ -10,13 +10,13 @@ namespace dynlab::inline course {
 
 struct Criterion {
     std::string name;
-    double most = 5;  ///< points
+    double max_points = 5;  ///< points
 };
 
 /// What is taken off marks, in percent points.
 struct Costs {
     double late_day = 0;                         ///< off the work, for each day or part of a day after the deadline
-    double late_most = 100;                      ///< that late_day takes off at most
+    double late_max = 100;                       ///< that late_day takes off at most
     double missing_final = 0;                    ///< off the work
     double late_review = 0, missing_review = 0;  ///< off the reviews, for each
 };
@@ -70,7 +70,7 @@ std::vector<std::string> parts_of(const Assignment& assignment, const std::strin
 /// Throws InvalidArgument for a lab or a talk.
 void refuse_without_reviews(const Assignment& assignment);
 
-/// What being late by `late` seconds costs, in percent: late_day for each day or part of a day, late_most at most.
+/// What being late by `late` seconds costs, in percent: late_day for each day or part of a day, late_max at most.
 double late_percent(const Costs& costs, std::int64_t late);
 /// A penalty of half the points or more is more often a wrong time than a late student: it is not applied until the
 /// instructor corrected or confirmed the time of receipt.

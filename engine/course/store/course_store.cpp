@@ -230,14 +230,14 @@ void Course::keep_files(const std::vector<fs::path>& files,
 /// memory is copied with each process that looks at one.
 void Course::keep_in_batches(const std::vector<fs::path>& files, std::vector<StoredFile>& kept,
                              const std::function<void(std::size_t)>& notify, const std::stop_token& stop) const {
-    constexpr std::int64_t kMostTogether = 2 << 20;
+    constexpr std::int64_t kMaxBatchBytes = 2 << 20;
     std::vector<std::string> contents;
     std::int64_t bytes = 0;
     for (std::size_t i = 0; i < files.size() && !stop.stop_requested(); ++i) {
         contents.push_back(read_file(files[i]));
         kept[i].bytes = static_cast<std::int64_t>(contents.back().size());
         bytes += kept[i].bytes;
-        if (bytes < kMostTogether && i + 1 < files.size()) continue;
+        if (bytes < kMaxBatchBytes && i + 1 < files.size()) continue;
         std::size_t next = i + 1 - contents.size();
         for (std::string& hash : keep(std::exchange(contents, {}))) kept[next++].hash = std::move(hash);
         bytes = 0;

@@ -13,7 +13,7 @@ namespace dynlab::inline course {
 namespace {
 
 constexpr int kMillisecondsToWait = 5000;
-constexpr std::size_t kMostIdle = 64;
+constexpr std::size_t kMaxIdle = 64;
 
 /// An explanation of SQLite's code for the users of a course; SQLite's own message for other codes.
 std::string reason_of(int code, const char* words) {
@@ -95,7 +95,7 @@ Rows::Rows(Rows&& other) noexcept
     : SQLite::Statement(std::move(other)), database_(std::exchange(other.database_, nullptr)) {}
 
 Rows::~Rows() {
-    if (!database_ || database_->idle_.size() >= kMostIdle) return;
+    if (!database_ || database_->idle_.size() >= kMaxIdle) return;
     tryReset();
     clearBindings();
     database_->idle_.emplace(getQuery(), std::move(*this));

@@ -188,7 +188,7 @@ void refuse_unseen_entry(Course& course, const Assignment& assignment, std::int6
         who, item, at, newest.reason);
 }
 
-std::optional<double> most_points(Course& course, const Assignment& assignment, const std::string& item) {
+std::optional<double> max_points_of(Course& course, const Assignment& assignment, const std::string& item) {
     if (!assignment.is_lab()) {
         if (item == kReviewsItem) refuse_without_reviews(assignment);
         if (item == kReviewsItem || item == kWholeItem) return 100;

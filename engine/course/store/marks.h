@@ -63,7 +63,7 @@ void refuse_unseen_entry(Course& course, const Assignment& assignment, std::int6
 
 /// The most that may be given for an item of a lab, once it was graded. Throws InvalidArgument for an item that the
 /// assignment does not have.
-std::optional<double> most_points(Course& course, const Assignment& assignment, const std::string& item);
+std::optional<double> max_points_of(Course& course, const Assignment& assignment, const std::string& item);
 
 /// What the checks gave one version of a submission of a lab.
 struct CheckPoints {

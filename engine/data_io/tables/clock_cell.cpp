@@ -48,10 +48,10 @@ class ClockText {
     void skip_blanks() {
         while (next() == ' ') skip();
     }
-    /// Of `most` digits or fewer; -1 when there are none, or more.
-    int number(std::size_t most) {
-        const std::size_t count = std::min(digits(), most);
-        if (count == 0 || digits() > most) return -1;
+    /// Of `max_digits` digits or fewer; -1 when there are none, or more.
+    int number(std::size_t max_digits) {
+        const std::size_t count = std::min(digits(), max_digits);
+        if (count == 0 || digits() > max_digits) return -1;
         return fixed(count);
     }
     int fixed(std::size_t count) {

@@ -102,8 +102,9 @@ ColumnFormat format_of(const CellCounts& column, const CellCounts& table) {
         format.example = column.clock_example;
     } else if (column.measures > column.numbers) {
         format.kind = Kind::kMeasure;
-        const auto most = std::ranges::max_element(column.units, {}, [](const auto& unit) { return unit.second; });
-        format.unit = most->first;
+        const auto most_frequent =
+            std::ranges::max_element(column.units, {}, [](const auto& unit) { return unit.second; });
+        format.unit = most_frequent->first;
         format.example = column.measure_example;
     }
     format.thousands = thousands_of(column, table);

@@ -13,7 +13,7 @@
 namespace dynlab::inline data_io {
 namespace {
 
-constexpr std::size_t kMaxTableRows = 300, kMostCells = 200000;  // of the sample
+constexpr std::size_t kMaxTableRows = 300, kMaxCells = 200000;  // of the sample
 constexpr std::size_t kMaxColumns = 100000;
 
 enum class CellKind { kNumber, kDisguised, kMissing, kText };
@@ -60,7 +60,7 @@ std::optional<TableSample> sample_of(const std::filesystem::path& file, std::str
     TableSample sample{separator, {}, {}, 0, 0};
     CellScanner scanner(file, text, separator, at, line);
     std::size_t cells = 0;
-    while (sample.table_rows.size() < kMaxTableRows && cells < kMostCells && scanner.next_row()) {
+    while (sample.table_rows.size() < kMaxTableRows && cells < kMaxCells && scanner.next_row()) {
         if (sample.table_rows.empty()) sample.last_comment = scanner.last_comment();
         TableRow table_row{scanner.place(), scanner.line(), {}, {}};
         do {
@@ -197,7 +197,7 @@ class LayoutFinder {
         }
         header_ = wordy.back();
         const bool two = wordy.size() > 1 && wordy[wordy.size() - 2] + 1 == *header_;
-        if ((two && holds_units(table_rows_[*header_])) || stands_below_numbered_channels(*header_))
+        if ((two && holds_units(table_rows_[*header_])) || is_below_numbered_channels(*header_))
             units_ = *header_, header_ = *header_ - 1;
         columns_ = std::max(columns_, std::min(sample_.cells, table_rows_[*header_].filled()));
         layout_.numbered_rows = table_rows_[*header_].cells.size() < columns_;
@@ -214,7 +214,7 @@ class LayoutFinder {
         return {units, others};
     }
     /// Oscilloscopes write: x-axis,1,2 and below it second,Volt,Volt.
-    bool stands_below_numbered_channels(std::size_t row) const {
+    bool is_below_numbered_channels(std::size_t row) const {
         const auto [units, others] = units_and_others(table_rows_[row]);
         if (row == 0 || units < 2 || others > 0) return false;
         const TableRow& above = table_rows_[row - 1];

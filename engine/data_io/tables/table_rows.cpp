@@ -40,7 +40,7 @@ class RowReader {
             column.numbers.conservativeResize(is_text(j) ? 0 : static_cast<Index>(rows_.count));  // without a copy
             column.missing = static_cast<std::size_t>(column.numbers.array().isNaN().count());
         }
-        tell_formats();
+        report_formats();
         rows_.columns = std::move(columns_);
         return std::move(rows_);
     }
@@ -78,7 +78,7 @@ class RowReader {
         throw EnvironmentError(
             "{}, line {}: the table has too many cells: reading it requires more than {} MB of memory, the limit for a "
             "file of {} MB",
-            file_.string(), scanner.line(), megabytes.most, megabytes.of_file);
+            file_.string(), scanner.line(), megabytes.limit, megabytes.of_file);
     }
 
     /// False at the end of the table, which the `first` cell that is not empty may show.
@@ -143,7 +143,7 @@ class RowReader {
         return true;
     }
 
-    void tell_formats() {
+    void report_formats() {
         for (std::size_t j = 0; j < columns_.size(); ++j) {
             const ColumnFormat& format = layout_.formats[j];
             if (format.kind == ColumnFormat::Kind::kSwitch)

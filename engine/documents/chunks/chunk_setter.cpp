@@ -304,8 +304,9 @@ class ChunkJob {
             SetPicture picture{chunk.html.substr(at, chunk.html.find('"', at) - at), used.is_figure, used.name, {}};
             for (const PlacedPicture& placed : files)
                 if (placed.written_name == picture.written_name) picture.file = placed.file;
-            const fs::path folder = folder_around(chunks_[i].origin.file), sought = folder / path_of_picture(used.name);
-            if (!used.is_figure && picture.file.empty() && is_inside(sought, folder)) picture.file = sought;
+            const fs::path folder = folder_around(chunks_[i].origin.file),
+                           candidate = folder / path_of_picture(used.name);
+            if (!used.is_figure && picture.file.empty() && is_inside(candidate, folder)) picture.file = candidate;
             chunk.pictures.push_back(std::move(picture));
         }
         const int number = static_cast<int>(i);

@@ -158,10 +158,10 @@ std::vector<std::vector<std::size_t>> SliderGroup::combinations() const {
     return all;
 }
 
-std::vector<double> places_of(const RecordedSlider& slider, std::size_t most) {
+std::vector<double> places_of(const RecordedSlider& slider, std::size_t max_count) {
     std::vector<double> values;
     const double steps = slider.step ? std::floor((slider.to - slider.from) / *slider.step + 1e-9) : 0;
-    const double count = std::min<double>(slider.step ? steps + 1 : double{kPlacesWithoutSteps}, double(most));
+    const double count = std::min<double>(slider.step ? steps + 1 : double{kPlacesWithoutSteps}, double(max_count));
     for (double i = 0; i < count; ++i) {
         const double part = count > 1 ? i / (count - 1) : 0;
         if (slider.step)
@@ -193,10 +193,10 @@ std::vector<SliderGroup> slider_groups(const RunRecord& record) {
     for (SliderGroup& group : groups) {
         double combinations = 1;
         for (const PlacedSlider& slider : group.sliders) combinations *= static_cast<double>(slider.values.size());
-        const double most = std::pow(kMaxCombinations, 1 / static_cast<double>(group.sliders.size()));
+        const double max_count = std::pow(kMaxCombinations, 1 / static_cast<double>(group.sliders.size()));
         for (PlacedSlider& slider : group.sliders) {
             if (combinations > kMaxCombinations)
-                slider.values = places_of(slider.slider, std::max<std::size_t>(2, static_cast<std::size_t>(most)));
+                slider.values = places_of(slider.slider, std::max<std::size_t>(2, static_cast<std::size_t>(max_count)));
             const auto own = std::find(slider.values.begin(), slider.values.end(), slider.slider.value);
             slider.shown = static_cast<std::size_t>(own - slider.values.begin());
         }

@@ -27,7 +27,7 @@ struct SliderGroup {
 
 /// The numbers at which a slider is tried: its steps, else 21 evenly spread (over the logarithm where it says so), at
 /// most so many, always with its ends and with the number that the run had.
-std::vector<double> places_of(const RecordedSlider& slider, std::size_t most = 25);
+std::vector<double> places_of(const RecordedSlider& slider, std::size_t max_count = 25);
 
 /// The sliders of a run cell by cell, in the order of the script: as many places as places_of gives, fewer where a
 /// cell's combinations would be more than 450 or so.

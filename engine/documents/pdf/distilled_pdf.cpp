@@ -101,7 +101,7 @@ std::string without_names(std::string font) {
 /// What Ghostscript wrote, reduced to what a reader needs.
 class Pruning {
   public:
-    Pruning(QPDF& pdf, std::uint64_t most) : pdf_(pdf), most_(most) {}
+    Pruning(QPDF& pdf, std::uint64_t max_bytes) : pdf_(pdf), max_bytes_(max_bytes) {}
 
     void prune() {
         keep_only(pdf_.getTrailer(), {"/Root", "/Size"});
@@ -176,7 +176,7 @@ class Pruning {
                 names_.emplace(descriptor.getKey("/FontName").getName(), "/AAAAAA+Font" + number);
             descriptor.replaceKey("/FontName", Object::newName(entry->second));
             descriptor.removeKey("/FontFamily");
-            const StreamContent content = stream_content(file, most_);
+            const StreamContent content = stream_content(file, max_bytes_);
             if (content.decoded)
                 file.replaceStreamData(without_names(content.bytes), Object::newNull(), Object::newNull());
         }
@@ -193,7 +193,7 @@ class Pruning {
     }
 
     QPDF& pdf_;
-    std::uint64_t most_;  ///< bytes of a stream
+    std::uint64_t max_bytes_;  ///< bytes of a stream
     std::map<std::string, std::string> names_;
 };
 

@@ -17,25 +17,26 @@ namespace {
 /// Collects bytes up to a limit.
 class Collector : public Pipeline {
   public:
-    explicit Collector(std::uint64_t most) : Pipeline("collector", nullptr), most_(most) {}
+    explicit Collector(std::uint64_t max_bytes) : Pipeline("collector", nullptr), max_bytes_(max_bytes) {}
 
     void write(const unsigned char* data, std::size_t count) override {
-        full_ = full_ || count > most_ - bytes_.size();
+        full_ = full_ || count > max_bytes_ - bytes_.size();
         if (full_) throw std::length_error("too many bytes");  // libqpdf takes it for damage of the stream
         bytes_.append(reinterpret_cast<const char*>(data), count);
     }
     void finish() override {}
 
     /// Takes memory for a usual report at once, rather than moving from place to place; what is not used costs nothing.
-    void expect_whole_file() { bytes_.reserve(std::min<std::uint64_t>(most_, 1u << 20)); }
+    void expect_whole_file() { bytes_.reserve(std::min<std::uint64_t>(max_bytes_, 1u << 20)); }
 
     std::string take() {
-        if (full_) throw PdfRefusal(PdfFault::kTooLarge, Message("The file exceeds {} MB when unpacked.", most_ >> 20));
+        if (full_)
+            throw PdfRefusal(PdfFault::kTooLarge, Message("The file exceeds {} MB when unpacked.", max_bytes_ >> 20));
         return std::move(bytes_);
     }
 
   private:
-    std::uint64_t most_;
+    std::uint64_t max_bytes_;
     bool full_ = false;
     std::string bytes_;
 };
@@ -74,9 +75,9 @@ std::string work_on_pdf_objects(const std::filesystem::path& file, const PdfObje
     return run_guarded_on_pdf(guarded, {{limits.time}, limits.memory_bytes, limits.bytes_inside});
 }
 
-StreamContent stream_content(QPDFObjectHandle stream, std::uint64_t most) {
+StreamContent stream_content(QPDFObjectHandle stream, std::uint64_t max_bytes) {
     StreamContent content;
-    Collector collector(most);
+    Collector collector(max_bytes);
     const bool whole = is_piped(stream, collector, qpdf_dl_specialized, content.decoded);
     content.bytes = collector.take();
     if (whole) return content;
@@ -92,8 +93,8 @@ std::string stored_bytes(QPDFObjectHandle stream) {
     return collector.take();
 }
 
-std::string written_pdf(QPDF& pdf, std::uint64_t most, const std::function<void(QPDFWriter&)>& choose) {
-    Collector collector(most);
+std::string written_pdf(QPDF& pdf, std::uint64_t max_bytes, const std::function<void(QPDFWriter&)>& choose) {
+    Collector collector(max_bytes);
     collector.expect_whole_file();
     QPDFWriter writer(pdf);
     writer.setOutputPipeline(&collector);

@@ -34,13 +34,13 @@ struct StreamContent {
     std::string bytes;
     bool decoded = false;
 };
-/// Throws PdfRefusal for more than `most` bytes.
-StreamContent stream_content(QPDFObjectHandle stream, std::uint64_t most);
+/// Throws PdfRefusal for more than `max_bytes` bytes.
+StreamContent stream_content(QPDFObjectHandle stream, std::uint64_t max_bytes);
 /// The bytes in the file, decrypted.
 std::string stored_bytes(QPDFObjectHandle stream);
 
 /// The PDF as one file, without what nothing refers to; equal objects give equal bytes. Throws PdfRefusal for more than
-/// `most` bytes.
-std::string written_pdf(QPDF& pdf, std::uint64_t most, const std::function<void(QPDFWriter&)>& choose = {});
+/// `max_bytes` bytes.
+std::string written_pdf(QPDF& pdf, std::uint64_t max_bytes, const std::function<void(QPDFWriter&)>& choose = {});
 
 }  // namespace dynlab::inline documents

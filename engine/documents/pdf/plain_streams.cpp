@@ -13,7 +13,7 @@
 namespace dynlab::inline documents {
 namespace {
 
-constexpr std::uint64_t kMostInside = 64u << 20;
+constexpr std::uint64_t kMaxInnerBytes = 64u << 20;
 /// Of a file whose objects may be left in memory when all is said of them.
 constexpr std::size_t kSmallFile = 4u << 20;
 /// Types of streams that poppler does not read for the text.
@@ -47,7 +47,7 @@ std::set<QPDFObjGen> whole_contents(QPDF& pdf, std::vector<QPDFObjectHandle>& ob
 }
 
 void write_out_streams(QPDF& pdf) {
-    std::uint64_t left = kMostInside;
+    std::uint64_t left = kMaxInnerBytes;
     std::vector<QPDFObjectHandle> objects = pdf.getAllObjects();
     const std::set<QPDFObjGen> contents = whole_contents(pdf, objects);
     for (QPDFObjectHandle& object : objects) {
@@ -72,7 +72,7 @@ std::string with_plain_streams(std::string bytes) {
         read_pdf(*pdf, bytes);
         if (pdf->isEncrypted()) return bytes;
         write_out_streams(*pdf);
-        std::string plain = written_pdf(*pdf, bytes.size() + 2 * kMostInside, [](QPDFWriter& writer) {
+        std::string plain = written_pdf(*pdf, bytes.size() + 2 * kMaxInnerBytes, [](QPDFWriter& writer) {
             writer.setStreamDataMode(qpdf_s_preserve);
             writer.setObjectStreamMode(qpdf_o_disable);
             writer.setNewlineBeforeEndstream(true);

@@ -86,7 +86,7 @@ class ParagraphSigns {
 
     /// A quote before a letter opens a title in the title, any other closes one.
     void take_title(std::size_t at) {
-        constexpr std::size_t kMostScanned = std::size_t{1} << 24;
+        constexpr std::size_t kMaxScannedBytes = std::size_t{1} << 24;
         const char quote = text_[at];
         const std::size_t first = at;
         std::size_t depth = 1;
@@ -94,7 +94,7 @@ class ParagraphSigns {
              at = text_.find(quote, at + 1))
             at + 1 < text_.size() && is_word(text_[at + 1]) ? ++depth : --depth;
         scanned_ += std::min(at, text_.size()) - first;
-        deepest_title_ = std::max(deepest_title_, scanned_ > kMostScanned ? kMaxLevels + 1 : depth);
+        deepest_title_ = std::max(deepest_title_, scanned_ > kMaxScannedBytes ? kMaxLevels + 1 : depth);
     }
 
     std::string_view text_;
@@ -121,7 +121,7 @@ Message CostlyText::complaint() {
 
 std::optional<int> CostlyText::line_of(std::string_view markdown) {
     constexpr double kFewSigns = 100;
-    constexpr int kMostBlocks = 200;
+    constexpr int kMaxBlocks = 200;
     const std::vector<std::string_view> lines = lines_with_ends(markdown);
     int blocks = 0;
     for (std::size_t i = 0; i < lines.size();) {
@@ -130,7 +130,7 @@ std::optional<int> CostlyText::line_of(std::string_view markdown) {
         for (; i < lines.size() && !is_blank(lines[i]); ++i) {
             bytes += lines[i].size();
             blocks = std::max(blocks + blocks_opened(lines[i]), 0);
-            if (blocks > kMostBlocks) return static_cast<int>(i) + 1;
+            if (blocks > kMaxBlocks) return static_cast<int>(i) + 1;
         }
         const ParagraphSigns signs(std::string_view(lines[first].data(), bytes));
         if (signs.signs() > kFewSigns) left_ -= signs.signs() * signs.signs();

@@ -7,7 +7,7 @@
 namespace dynlab::inline documents {
 namespace {
 
-constexpr int kShortestGreekWord = 4;  // letters; shorter ones are symbols: Δω
+constexpr int kMinGreekWordLength = 4;  // letters; shorter ones are symbols: Δω
 constexpr char32_t kLeftToRightMark = 0x200E;
 const std::set<std::string> kOfSigns = {"Symbols=zyyy", "Symbols2=zyyy"};  // arrows, pictures, dingbats
 
@@ -26,7 +26,7 @@ std::optional<char32_t> first_greek_word(std::string_view text) {
             continue;
         }
         if (letters == 0) first = c;
-        if (++letters == kShortestGreekWord) return first;
+        if (++letters == kMinGreekWordLength) return first;
     }
     return std::nullopt;
 }

@@ -62,14 +62,14 @@ Vector below_nyquist(const NamedModel& model, const Vector& w) {
 }
 
 void add_bands(Panel& magnitude, Panel& phase, const std::vector<NamedModel>& models) {
-    constexpr double kMinDecibels = 20, kMinDegrees = 90, kMostDecibels = 40, kMostDegrees = 180;
+    constexpr double kMinDecibels = 20, kMinDegrees = 90, kMaxDecibels = 40, kMaxDegrees = 180;
     for (std::size_t i = 0; i < models.size(); ++i) {
         if (!models[i].confidence) continue;
         const auto& [model, level] = *models[i].confidence;
         const FrequencyUncertainty spread = frequency_response_std(model, magnitude.curves[i].x);
         const double width = normal_half_width(level);
-        add_confidence_band(magnitude, i, width * spread.magnitude_std, level, kMostDecibels);
-        add_confidence_band(phase, i, width * spread.phase_std, level, kMostDegrees);
+        add_confidence_band(magnitude, i, width * spread.magnitude_std, level, kMaxDecibels);
+        add_confidence_band(phase, i, width * spread.phase_std, level, kMaxDegrees);
     }
     limit_to_readable(magnitude, models.size(), kMinDecibels);
     limit_to_readable(phase, models.size(), kMinDegrees);

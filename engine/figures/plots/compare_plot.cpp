@@ -52,8 +52,8 @@ void keep_to_the_others(Panel& panel) {
     double low = kInfinity, high = -kInfinity;
     for (const Curve* curve : others)
         low = std::min(low, curve->y.minCoeff()), high = std::max(high, curve->y.maxCoeff());
-    const double room = 0.25 * (high - low);
-    if (room > 0) panel.y_range = {low - room, high + room};
+    const double padding = 0.25 * (high - low);
+    if (padding > 0) panel.y_range = {low - padding, high + padding};
 }
 
 }  // namespace

@@ -99,10 +99,10 @@ Panel signal_panel(const PlantPart& part, const MotionData& motion_data, Index c
 void draw_pictures(Panel& panel, const PlantDrawing& plant, const MotionData& motion_data, const Vector& instants,
                    double width, double height) {
     const double seconds = motion_data.t[motion_data.t.size() - 1] - motion_data.t[0];
-    double room = width;  // between neighbors
+    double available_width = width;  // between neighbors
     for (Index k = 1; k < instants.size(); ++k)
-        room = std::min(room, (instants[k] - instants[k - 1]) / seconds * width);
-    const double scale = std::min(0.97 * room / plant.width, height / (plant.height + 2 * kRim));
+        available_width = std::min(available_width, (instants[k] - instants[k - 1]) / seconds * width);
+    const double scale = std::min(0.97 * available_width / plant.width, height / (plant.height + 2 * kRim));
     const double base = kFirstHeight + 0.5 * (height - scale * (plant.height + 2 * kRim));
     Strokes fixed, measured, simulated;
     for (const double instant : instants) {

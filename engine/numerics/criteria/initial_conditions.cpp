@@ -31,14 +31,14 @@ Changes changes_of(const VectorView& u) {
 }  // namespace
 
 JointOperatingPoint joint_operating_point(const MatrixView& u, const VectorView& y) {
-    Index most = 0, first_step = u.rows();
+    Index max_changes = 0, first_step = u.rows();
     for (Index j = 0; j < u.cols(); ++j) {
         const Changes changes = changes_of(u.col(j));
-        most = std::max(most, changes.count);
+        max_changes = std::max(max_changes, changes.count);
         if (changes.count == 1) first_step = std::min(first_step, changes.last);
     }
-    if (most == 0) return {Vector::Zero(u.cols()), 0};
-    if (most == 1) return {u.row(0).transpose(), y.head(first_step + 1).mean()};
+    if (max_changes == 0) return {Vector::Zero(u.cols()), 0};
+    if (max_changes == 1) return {u.row(0).transpose(), y.head(first_step + 1).mean()};
     return {u.colwise().mean().transpose(), y.mean()};
 }
 

@@ -83,8 +83,8 @@ RateEquations weak_equations(const IdData& data, std::size_t experiment, const F
         ends = library_values(library, data_set.y, held);
     }
     const double step = std::max(width / kCentersPerWidth, data.mean_step());
-    const double room = t[N - 1] - t[0] - 2 * width;
-    const Index rows = room < 0 ? 0 : static_cast<Index>(room / step) + 1;
+    const double available = t[N - 1] - t[0] - 2 * width;
+    const Index rows = available < 0 ? 0 : static_cast<Index>(available / step) + 1;
     RateEquations equations{Matrix::Zero(rows, library.count()), Matrix::Zero(rows, data_set.y.cols())};
     Index first = 0;
     for (Index row = 0; row < rows; ++row) {
@@ -111,7 +111,7 @@ double usual_width(const IdData& data) {
     constexpr Index kMin = 5, kShare = 10;
     Index longest = 0;
     for (const Experiment& experiment : data.experiments) longest = std::max(longest, experiment.y.rows());
-    const Index most = std::max(kMin, longest / kShare);
+    const Index max_lag = std::max(kMin, longest / kShare);
     const auto correlation = [&](Index lag) {
         double sum = 0;
         for (const Experiment& experiment : data.experiments) {
@@ -127,8 +127,8 @@ double usual_width(const IdData& data) {
     };
     const double start = correlation(0);
     Index lag = 1;
-    while (lag < most && correlation(lag) > start / 2) lag += 1 + lag / 20;
-    return static_cast<double>(std::clamp(lag, kMin, most)) * data.mean_step();
+    while (lag < max_lag && correlation(lag) > start / 2) lag += 1 + lag / 20;
+    return static_cast<double>(std::clamp(lag, kMin, max_lag)) * data.mean_step();
 }
 
 }  // namespace dynlab::inline numerics

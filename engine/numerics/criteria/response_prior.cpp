@@ -132,16 +132,16 @@ Matrix prior_kernel(const ResponsePrior& prior, Index size) {
     const double a = prior.decay;
     for (Index i = 0; i < size; ++i)
         for (Index j = 0; j < size; ++j) {
-            const auto sum = static_cast<double>(i + j), most = static_cast<double>(std::max(i, j));
+            const auto sum = static_cast<double>(i + j), larger = static_cast<double>(std::max(i, j));
             switch (prior.kernel) {
                 case ResponseKernel::kTc:
-                    K(i, j) = std::pow(a, most);
+                    K(i, j) = std::pow(a, larger);
                     break;
                 case ResponseKernel::kDc:
                     K(i, j) = std::pow(a, sum / 2) * std::pow(prior.correlation, std::abs(i - j));
                     break;
                 case ResponseKernel::kSs:
-                    K(i, j) = std::pow(a, sum + most) / 2 - std::pow(a, 3 * most) / 6;
+                    K(i, j) = std::pow(a, sum + larger) / 2 - std::pow(a, 3 * larger) / 6;
                     break;
             }
         }

@@ -13,7 +13,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kFewestSamplesOfCra = 8;
+constexpr Index kMinSamplesOfCra = 8;
 
 /// Sums over all experiments of lagged_products, lags 0 .. lags.
 Vector joint_products(const IdData& data, const Matrix Experiment::*x, const Matrix Experiment::*y, Index lags) {
@@ -53,7 +53,7 @@ void CraOptions::validate() const {
 
 CorrelationAnalysis cra(const IdData& data, const CraOptions& options) {
     options.validate();
-    IdData data_set = nonparametric_data("cra", data, kFewestSamplesOfCra + options.whitening, true);
+    IdData data_set = nonparametric_data("cra", data, kMinSamplesOfCra + options.whitening, true);
     Index shortest = data_set.sample_count();
     for (const Experiment& experiment : data_set.experiments) shortest = std::min(shortest, experiment.y.rows());
     const Index lags = lags_or_default("cra", options.lags, shortest - options.whitening);

@@ -21,13 +21,13 @@ namespace {
 
 constexpr double kLeastVisits = 3;  // least sum of a hat function over the data for which its edge is kept
 
-/// The values that the input takes, in order, when they are no more than `most`.
-std::optional<Vector> few_values(const IdData& data, Index most) {
+/// The values that the input takes, in order, when they are no more than `max_count`.
+std::optional<Vector> few_values(const IdData& data, Index max_count) {
     std::set<double> values;
     for (const Experiment& experiment : data.experiments)
         for (const double u : experiment.u.col(0)) {
             values.insert(u);
-            if (static_cast<Index>(values.size()) > most) return std::nullopt;
+            if (static_cast<Index>(values.size()) > max_count) return std::nullopt;
         }
     Vector result(static_cast<Index>(values.size()));
     std::copy(values.begin(), values.end(), result.begin());

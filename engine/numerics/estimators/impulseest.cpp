@@ -12,7 +12,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kFewestSamplesOfImpulseest = 8, kMaxLags = 400;
+constexpr Index kMinSamplesOfImpulseest = 8, kMaxLags = 400;
 
 /// Rows [u(k) u(k-1) .. u(k-n)] and y(k) of an experiment, without their means over it (which estimates c).
 class CenteredRows {
@@ -117,7 +117,7 @@ void ImpulseestOptions::validate() const {
 
 RegressedResponse impulseest(const IdData& data, const ImpulseestOptions& options) {
     options.validate();
-    const IdData data_set = nonparametric_data("impulseest", data, kFewestSamplesOfImpulseest, false);
+    const IdData data_set = nonparametric_data("impulseest", data, kMinSamplesOfImpulseest, false);
     Index shortest = data_set.sample_count();
     for (const Experiment& experiment : data_set.experiments) shortest = std::min(shortest, experiment.y.rows());
     const Index n = lags_or_default("impulseest", options.lags, shortest);

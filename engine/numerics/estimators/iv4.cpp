@@ -15,7 +15,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr int kLongestFilter = 100;
+constexpr int kMaxFilterLength = 100;
 
 /// The data with outputs that the model simulates from rest, its poles brought into the unit circle.
 IdData simulated(const IdData& data, const PolynomialModel& model) {
@@ -80,7 +80,7 @@ double mean_square(const std::vector<Vector>& errors, Index parameters) {
 /// The autoregression of step 3.
 Vector noise_filter(const std::vector<Vector>& errors, const PolynomialOrders& orders, double power) {
     const int requested = orders.na + std::accumulate(orders.nb.begin(), orders.nb.end(), 0);
-    return start_noise(errors, 0, std::min(requested, kLongestFilter), power).D;
+    return start_noise(errors, 0, std::min(requested, kMaxFilterLength), power).D;
 }
 
 }  // namespace

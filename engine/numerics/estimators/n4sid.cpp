@@ -111,7 +111,7 @@ Observability observability(const Matrix& R, const Sizes& sizes, SubspaceWeighti
     const Matrix past = basis * R.block(f, f, p, p), by_past = basis * R.block(f, f + p, p, q);
     Matrix weighed = by_past, unweigh = Matrix::Identity(q, q);
     if (weighting == SubspaceWeighting::kN4sid) {
-        const Matrix on_past = shortest_solution(past, by_past);
+        const Matrix on_past = minimum_norm_solution(past, by_past);
         weighed.resize(f + rank, q);
         weighed << R.block(0, f, f, p) * on_past, past * on_past;
     } else if (weighting == SubspaceWeighting::kCva) {

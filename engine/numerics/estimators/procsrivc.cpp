@@ -21,7 +21,7 @@ namespace {
 
 constexpr Index kSamplesPerProcessParameter = 3;
 constexpr Index kProcessTrialSamples = 20'000;  // for much longer data the start is found on their beginning
-constexpr double kToldApart = 0.25;             // of a time constant or gain: a larger standard error is no start
+constexpr double kMaxRelativeStd = 0.25;        // of a time constant or gain: a larger standard error is no start
 constexpr double kCloseEvidence = 12;           // N BIC: start conditions this close are all fitted to all samples
 
 /// What is fitted, under any start condition.
@@ -46,9 +46,9 @@ struct ProcessProblem {
     }
     /// rad/s, where the model may have one.
     Vector resonances(const IdData& data) const {
-        constexpr std::size_t kMostResonances = 4;
+        constexpr std::size_t kMaxResonances = 4;
         const std::vector<double> peaks =
-            structure.underdamped ? response_peaks(data, kMostResonances) : std::vector<double>();
+            structure.underdamped ? response_peaks(data, kMaxResonances) : std::vector<double>();
         return Vector::Map(peaks.data(), static_cast<Index>(peaks.size()));
     }
     Fit fit(const IdData& data, const StartCondition& condition, const Fit* start = nullptr,
@@ -137,7 +137,7 @@ bool is_a_start(const ProcessProblem& problem, const Fit& search) {
         const Index k = static_cast<Index>(i);
         const bool scales = names[i] == "Kp" || names[i] == "Tw" || names[i].starts_with("Tp");
         const double std = std::sqrt(std::max(0.0, search.covariance(k, k)));
-        if (search.at_bound[i] || (scales && !(std <= kToldApart * std::abs(search.theta[k])))) return false;
+        if (search.at_bound[i] || (scales && !(std <= kMaxRelativeStd * std::abs(search.theta[k])))) return false;
     }
     return true;
 }
@@ -317,10 +317,10 @@ Fit procsrivc(const IdData& data, const ProcessStructure& structure, const Procs
     const CenteredData data_set = centered_for(data, options.offset);
     const ProcessProblem problem{structure, delay_range(data, options), options};
     const auto conditions = conditions_for(data_set.data, structure, options);
-    const Index values = problem.value_count(data, conditions[0]), fewest = kSamplesPerProcessParameter * values;
-    if (data.sample_count() < fewest)
+    const Index values = problem.value_count(data, conditions[0]), min_samples = kSamplesPerProcessParameter * values;
+    if (data.sample_count() < min_samples)
         throw InvalidArgument("procsrivc: at least {} samples are needed to estimate {} values, but the data have {}",
-                              fewest, values, data.sample_count());
+                              min_samples, values, data.sample_count());
     Fit fit = best_fit_to_long(problem, data_set.data, conditions);
     fit = without_masked_inputs(problem, data_set.data, std::move(fit));
     set_process(fit, structure);

@@ -222,10 +222,10 @@ void fill_noise(Fit& result, const Passes& passes, const NoiseOrders& orders, co
 }
 
 /// Samples that an input may be late.
-Index most_late(const TransferStructure& structure, const DelayRange& range, double Ts) {
-    double longest = structure.free_delays ? range.largest : 0;
-    for (const TransferChannel& channel : structure.channels) longest = std::max(longest, channel.delay);
-    return static_cast<Index>(std::ceil(longest / Ts));
+Index max_delay_samples(const TransferStructure& structure, const DelayRange& range, double Ts) {
+    double max_delay = structure.free_delays ? range.largest : 0;
+    for (const TransferChannel& channel : structure.channels) max_delay = std::max(max_delay, channel.delay);
+    return static_cast<Index>(std::ceil(max_delay / Ts));
 }
 
 /// The passes, or better ones where a long regression predicts better than they do: from models of filtered data, whose
@@ -235,7 +235,7 @@ Passes best_passes(const IdData& data, const TransferOutput& model, const Fit& s
     Passes best(model, start, orders, options);
     best.run();
     if (orders.nd == 0 || best.without_noise_ || best.canceled()) return best;
-    const LongRegression regression(data, most_late(start.structure, range, data.Ts));
+    const LongRegression regression(data, max_delay_samples(start.structure, range, data.Ts));
     if (!regression.predicts_better_than(best.variance())) return best;
     const FitOptions plain = options.started({start.start.state, false});
     for (const IdData& filtered : regression.filtered_data(start.start.state == InitialState::kZero)) {

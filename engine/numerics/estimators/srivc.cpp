@@ -84,7 +84,7 @@ namespace {
 
 constexpr Index kComparedSamples = 10'000;  // on which poorer structures are compared
 constexpr int kComparedPasses = 4;
-constexpr Index kFewestToCompare = 4;  // parameters: of smaller models the errors show a poor end
+constexpr Index kMinComparedParameters = 4;  // parameters: of smaller models the errors show a poor end
 constexpr double kComparedTolerance = 1e-3, kNoGain = 1e-3;
 constexpr double kPoorFit = 20;    // per cent: where little is explained, the passes easily miss the best
 constexpr double kFineFit = 99.9;  // per cent: nothing is missing that would be worth a search
@@ -131,9 +131,9 @@ std::optional<double> typical_frequency(const Fit& estimate) {
 /// passes on the beginning of long data: then the passes may have ended in a poor minimum.
 bool gains_nothing(const Fit& estimate, const IdData& data, const FitOptions& options,
                    const std::vector<const Fit*>& lower_order) {
-    const auto hardly_larger = [&](const Fit* fit) { return fit->loss < (1 + kNoGain) * estimate.loss; };
-    if (!lower_order.empty()) return std::any_of(lower_order.begin(), lower_order.end(), hardly_larger);
-    if (estimate.theta.size() < kFewestToCompare) return false;
+    const auto has_similar_loss = [&](const Fit* fit) { return fit->loss < (1 + kNoGain) * estimate.loss; };
+    if (!lower_order.empty()) return std::any_of(lower_order.begin(), lower_order.end(), has_similar_loss);
+    if (estimate.theta.size() < kMinComparedParameters) return false;
     const bool whole = data.sample_count() <= 2 * kComparedSamples;
     const IdData part = whole ? IdData() : beginning_of(data, kComparedSamples);
     const IdData& data_set = whole ? data : part;

@@ -21,7 +21,7 @@ ColumnMatrix free_step(const DeltaChain& chain) {
 
 }  // namespace
 
-Index memory_length(const DeltaChain& chain, Index most) {
+Index memory_length(const DeltaChain& chain, Index max_length) {
     constexpr double kStateDecay = 1e-19;
     const int n = chain.order;
     if (n == 0) return 0;
@@ -37,10 +37,10 @@ Index memory_length(const DeltaChain& chain, Index most) {
     };
     std::vector<ColumnMatrix> powers{free_step(chain)};  // over 1, 2, 4, .. steps
     while (!forgotten(powers.back())) {
-        if (Index{1} << powers.size() >= 2 * most) return most;
+        if (Index{1} << powers.size() >= 2 * max_length) return max_length;
         powers.push_back(powers.back().lazyProduct(powers.back()));
     }
-    if (powers.size() < 2) return std::min<Index>(1, most);
+    if (powers.size() < 2) return std::min<Index>(1, max_length);
     std::size_t i = powers.size() - 2;
     ColumnMatrix reached = powers[i];
     Index steps = Index{1} << i;
@@ -51,7 +51,7 @@ Index memory_length(const DeltaChain& chain, Index most) {
         reached = further;
         steps += Index{1} << i;
     }
-    return std::min(steps + (Index{1} << i), most);
+    return std::min(steps + (Index{1} << i), max_length);
 }
 
 }  // namespace dynlab::inline numerics

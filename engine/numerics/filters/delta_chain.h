@@ -24,7 +24,7 @@ struct DeltaChain {
 using ColumnMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxDeltaOrder + 1, kMaxDeltaOrder + 1>;
 
 /// Steps without a signal after which less than rounding is left of any state, whatever its size in units of the
-/// chain's mean pole; an eighth too many at most. `most` where it would be as many.
-Index memory_length(const DeltaChain& chain, Index most);
+/// chain's mean pole; an eighth too many at most. `max_length` where it would be as many.
+Index memory_length(const DeltaChain& chain, Index max_length);
 
 }  // namespace dynlab::inline numerics

@@ -65,8 +65,8 @@ StateExpansion<4> expansion(const StateMatrix<4>& E, const StateVector<4>& input
     return x;
 }
 
-template <int room>
-StateExpansion<room> cascade_expansion(const StateMatrix<room>& E, const StateVector<room>& input, int n) {
+template <int capacity>
+StateExpansion<capacity> cascade_expansion(const StateMatrix<capacity>& E, const StateVector<capacity>& input, int n) {
     StateMatrix<4> own, between;
     StateVector<4> to_first, to_second;
     for (int j = 0; j < n; ++j) {
@@ -79,7 +79,7 @@ StateExpansion<room> cascade_expansion(const StateMatrix<room>& E, const StateVe
     }
     const StateVector<4> alpha = delta_polynomial(own, n);
     const Resolvent resolvent(own, alpha, n);
-    StateExpansion<room> x;
+    StateExpansion<capacity> x;
     std::copy_n(delta_product(alpha, alpha, n).at, 2 * n, x.alpha.at);
     for (int j = 0; j < n; ++j) {
         const StateVector<4> first = product(resolvent.M[j], to_first, n),
@@ -99,9 +99,9 @@ StateExpansion<room> cascade_expansion(const StateMatrix<room>& E, const StateVe
 }
 
 /// Gauss's elimination with row pivots, rows and columns first scaled to the norm one.
-template <int room>
-StateVector<room> scaled_solution(StateMatrix<room> T, StateVector<room> b, int n) {
-    StateVector<room> rows;
+template <int capacity>
+StateVector<capacity> scaled_solution(StateMatrix<capacity> T, StateVector<capacity> b, int n) {
+    StateVector<capacity> rows;
     for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i) rows[i] += T(i, j) * T(i, j);
     for (int i = 0; i < n; ++i) {
@@ -109,7 +109,7 @@ StateVector<room> scaled_solution(StateMatrix<room> T, StateVector<room> b, int 
         b[i] *= factor;
         for (int j = 0; j < n; ++j) T(i, j) *= factor;
     }
-    StateVector<room> columns;
+    StateVector<capacity> columns;
     for (int j = 0; j < n; ++j) {
         double square = 0;
         for (int i = 0; i < n; ++i) square += T(i, j) * T(i, j);

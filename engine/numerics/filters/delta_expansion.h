@@ -13,20 +13,20 @@ StateVector<4> delta_polynomial(const StateMatrix<4>& E, int n);
 StateVector<8> delta_product(const StateVector<4>& a, const StateVector<4>& b, int n);
 
 /// (delta I - E)^-1 input = sum_j x_j delta^j/A: the state k of x_j is states(j, k).
-template <int room>
+template <int capacity>
 struct StateExpansion {
-    StateVector<room> alpha;
-    StateMatrix<room> states;
+    StateVector<capacity> alpha;
+    StateMatrix<capacity> states;
 };
 /// n <= 4 states.
 StateExpansion<4> expansion(const StateMatrix<4>& E, const StateVector<4>& input, int n);
 /// For the cascade of two equal systems of n <= room/2 states each. Block by block, poles that are far apart cost no
 /// digits twice.
-template <int room>
-StateExpansion<room> cascade_expansion(const StateMatrix<room>& E, const StateVector<room>& input, int n);
+template <int capacity>
+StateExpansion<capacity> cascade_expansion(const StateMatrix<capacity>& E, const StateVector<capacity>& input, int n);
 
 /// x of T x = b, where rows and columns of T may differ in size by many orders of magnitude.
-template <int room>
-StateVector<room> scaled_solution(StateMatrix<room> T, StateVector<room> b, int n);
+template <int capacity>
+StateVector<capacity> scaled_solution(StateMatrix<capacity> T, StateVector<capacity> b, int n);
 
 }  // namespace dynlab::inline numerics

@@ -9,8 +9,8 @@ namespace dynlab::inline numerics {
 namespace {
 
 using Part = Lanes::Part;
-constexpr Index kShortestDeltaSegment = 8;  // samples a lane; shorter ones are not worth it
-constexpr Index kDeltaBlock = 64;           // samples a lane that are copied at a time
+constexpr Index kMinDeltaSegmentLength = 8;  // samples a lane; shorter ones are not worth it
+constexpr Index kDeltaBlock = 64;            // samples a lane that are copied at a time
 
 /// How the states of two chains move by themselves over a segment, found by filtering nothing from unit states, one in
 /// each lane: powers of matrices or polynomials would lose what slow poles leave beside fast ones.
@@ -292,7 +292,7 @@ class DeltaRun {
 std::optional<DeltaProducts> delta_products(const DeltaChain& first, const DeltaChain& second, Index N,
                                             RequestedProducts requested) {
     const DeltaLoops loops = delta_loops(first.order, second.order, requested);
-    if (!loops.sum || N < kDeltaLanes * kShortestDeltaSegment) return {};
+    if (!loops.sum || N < kDeltaLanes * kMinDeltaSegmentLength) return {};
     std::optional<DeltaProducts> products(std::in_place);
     DeltaRun(first, second, loops, N).run(*products);
     return products;

@@ -32,9 +32,9 @@ DeltaSignal filtered_output(const RegressionData& data_set, const SampledFilter<
     return delta_signal(filter, derivatives(den, filter.poles), data_set.y, data_set.hold_y, 0, false);
 }
 
-template <int room>
-DeltaSignal outputs_of_input(const RegressionData& data_set, std::size_t input, const SampledFilter<room>& filter,
-                             const StateOutputs<room>& outputs, bool longer) {
+template <int capacity>
+DeltaSignal outputs_of_input(const RegressionData& data_set, std::size_t input, const SampledFilter<capacity>& filter,
+                             const StateOutputs<capacity>& outputs, bool longer) {
     return delta_signal(filter, outputs, data_set.u[input], data_set.hold, data_set.delays[input], longer);
 }
 
@@ -67,19 +67,19 @@ DeltaSignal unfiltered(const SampleView& samples) {
 }
 
 /// SRIVC's instruments -p^(n-1) B/A^2 .. -B/A^2, p^m/A .. 1/A of one input: of z = u/A and w = z/A.
-template <int room>
-DeltaSignal sensitivities(const RegressionData& data_set, std::size_t input, const SampledFilter<room>& cascade,
+template <int capacity>
+DeltaSignal sensitivities(const RegressionData& data_set, std::size_t input, const SampledFilter<capacity>& cascade,
                           const VectorView& A, const Vector& B, bool longer) {
     const int n = cascade.poles, m = static_cast<int>(B.size()) - 1;
     // Row r: p^r w, from A(p) w = z for r >= n.
-    StateVector<room> derivatives_of_w[room];
+    StateVector<capacity> derivatives_of_w[capacity];
     for (int r = 0; r < 2 * n; ++r) {
         derivatives_of_w[r][2 * n - 1 - r] = 1;
         if (r >= n)
             for (int i = 1; i <= n; ++i) derivatives_of_w[r].add(-A[i], derivatives_of_w[r - i]);
     }
     const StateOutputs<4> of_z = derivatives(A, m);
-    StateOutputs<room> outputs;
+    StateOutputs<capacity> outputs;
     outputs.count = n + m + 1;
     for (int i = 0; i < n; ++i)
         for (int j = 0; j <= m; ++j) outputs.C[i].add(-B[j], derivatives_of_w[n - 1 - i + m - j]);
@@ -172,8 +172,8 @@ class DeltaSignals {
         }
     }
 
-    std::array<std::byte, 3 * sizeof(DeltaSignal)> room_;
-    std::pmr::monotonic_buffer_resource memory_{room_.data(), room_.size()};
+    std::array<std::byte, 3 * sizeof(DeltaSignal)> buffer_;
+    std::pmr::monotonic_buffer_resource memory_{buffer_.data(), buffer_.size()};
     std::pmr::vector<DeltaSignal> signals_{&memory_};
     Index outputs_ = 0;
 };
@@ -298,11 +298,11 @@ bool poles_far_apart(const SampledFilter<4>& filter) {
     return std::abs(alpha[0]) * kFarApart < std::pow(alpha[n - 1], n);
 }
 
-template <int room>
+template <int capacity>
 std::optional<NormalEquations> refined(const RegressionData& data_set, const VectorView& A,
                                        const std::vector<Vector>& B, bool with_gram) {
     const Index n = A.size() - 1;
-    const SampledFilter<room> cascade(A, data_set.sampling.Ts, true);
+    const SampledFilter<capacity> cascade(A, data_set.sampling.Ts, true);
     const SampledFilter<4> filter = cascade.first();
     if (poles_far_apart(filter)) return {};
     EquationOutputs equation{n, {}, 1, {}};

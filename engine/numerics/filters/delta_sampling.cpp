@@ -12,9 +12,9 @@ namespace dynlab::inline numerics {
 namespace {
 
 /// The step of h seconds.
-template <int room>
-void set_step(double h, const StateMatrix<room>& A, int n, StateMatrix<room>& E, StateVector<room>& G,
-              StateVector<room>& H0, StateVector<room>& H1) {
+template <int capacity>
+void set_step(double h, const StateMatrix<capacity>& A, int n, StateMatrix<capacity>& E, StateVector<capacity>& G,
+              StateVector<capacity>& H0, StateVector<capacity>& H1) {
     if (const auto step = short_step(A, n, h)) {
         E = step->E;
         G = step->W.column[0];
@@ -37,35 +37,35 @@ void set_step(double h, const StateMatrix<room>& A, int n, StateMatrix<room>& E,
 /// One sampling interval of a filter, with w the samples of u from the instant `begin` on:
 ///     x[k+1] = x[k] + E x[k] + after_next w[k+2] + next w[k+1] + now w[k].
 /// At `begin`, where w starts, x is `first` times the first sample, and after_next times the second.
-template <int room>
+template <int capacity>
 struct DelayedStep {
-    StateMatrix<room> E;
-    StateVector<room> after_next, next, now, first;
+    StateMatrix<capacity> E;
+    StateVector<capacity> after_next, next, now, first;
     Index begin = 0;
     double weight_of_next = 0;  ///< of w[k+1] in u at the instant k; the rest is that of w[k]
 };
 
-template <int room>
-StateVector<room> sum(StateVector<room> a, double weight, const StateVector<room>& b) {
+template <int capacity>
+StateVector<capacity> sum(StateVector<capacity> a, double weight, const StateVector<capacity>& b) {
     a.add(weight, b);
     return a;
 }
 /// x + E x
-template <int room>
-StateVector<room> moved(const StateMatrix<room>& E, const StateVector<room>& x, int n) {
+template <int capacity>
+StateVector<capacity> moved(const StateMatrix<capacity>& E, const StateVector<capacity>& x, int n) {
     return sum(x, 1, product(E, x, n));
 }
-template <int room>
-StateVector<room> times(double weight, const StateVector<room>& x) {
-    return sum(StateVector<room>(), weight, x);
+template <int capacity>
+StateVector<capacity> times(double weight, const StateVector<capacity>& x) {
+    return sum(StateVector<capacity>(), weight, x);
 }
 
-template <int room>
-DelayedStep<room> delayed_step(const SampledFilter<room>& filter, Hold hold, double delay) {
+template <int capacity>
+DelayedStep<capacity> delayed_step(const SampledFilter<capacity>& filter, Hold hold, double delay) {
     const int n = filter.states;
     const auto [samples, rest] = split_delay(delay, filter.Ts);
     const bool held = hold == Hold::kZoh;
-    DelayedStep<room> step;
+    DelayedStep<capacity> step;
     step.begin = samples;
     if (rest == 0) {
         step.E = filter.E;
@@ -75,10 +75,10 @@ DelayedStep<room> delayed_step(const SampledFilter<room>& filter, Hold hold, dou
     }
     // In the first `late` of the interval, u runs from w[k] towards w[k+1], then on towards w[k+2].
     const double late = rest / filter.Ts;
-    SampledFilter<room> first = filter, second = filter;
+    SampledFilter<capacity> first = filter, second = filter;
     set_step(rest, first.A, n, first.E, first.G, first.H0, first.H1);
     set_step(filter.Ts - rest, second.A, n, second.E, second.G, second.H0, second.H1);
-    StateVector<room> before;
+    StateVector<capacity> before;
     if (held) {
         step.first = second.G;
         step.now = first.G;
@@ -100,8 +100,8 @@ DelayedStep<room> delayed_step(const SampledFilter<room>& filter, Hold hold, dou
 
 }  // namespace
 
-template <int room>
-SampledFilter<room>::SampledFilter(const VectorView& den, double sampling_time, bool twice)
+template <int capacity>
+SampledFilter<capacity>::SampledFilter(const VectorView& den, double sampling_time, bool twice)
     : poles(static_cast<int>(den.size()) - 1), states(twice ? 2 * poles : poles), Ts(sampling_time) {
     for (int system = 0; system < states; system += poles) {
         for (int i = 0; i < poles; ++i) A(system, system + i) = -den[i + 1];
@@ -111,8 +111,8 @@ SampledFilter<room>::SampledFilter(const VectorView& den, double sampling_time, 
     set_step(Ts, A, states, E, G, H0, H1);
 }
 
-template <int room>
-SampledFilter<4> SampledFilter<room>::first() const {
+template <int capacity>
+SampledFilter<4> SampledFilter<capacity>::first() const {
     SampledFilter<4> one;
     one.poles = one.states = poles;
     one.Ts = Ts;
@@ -130,24 +130,24 @@ SampledFilter<4> SampledFilter<room>::first() const {
 
 namespace {
 
-template <int room>
-StateExpansion<room> expansion_of(const SampledFilter<room>& filter, const StateMatrix<room>& E,
-                                  const StateVector<room>& input) {
-    if constexpr (room == 4)
+template <int capacity>
+StateExpansion<capacity> expansion_of(const SampledFilter<capacity>& filter, const StateMatrix<capacity>& E,
+                                      const StateVector<capacity>& input) {
+    if constexpr (capacity == 4)
         if (filter.states == filter.poles) return expansion(E, input, filter.poles);
     return cascade_expansion(E, input, filter.poles);
 }
 
 }  // namespace
 
-template <int room>
-DeltaSignal delta_signal(const SampledFilter<room>& filter, const StateOutputs<room>& outputs, const SampleView& u,
-                         Hold hold, double delay, bool longer) {
+template <int capacity>
+DeltaSignal delta_signal(const SampledFilter<capacity>& filter, const StateOutputs<capacity>& outputs,
+                         const SampleView& u, Hold hold, double delay, bool longer) {
     const int n = filter.states;
-    const DelayedStep<room> step = delayed_step(filter, hold, delay);
+    const DelayedStep<capacity> step = delayed_step(filter, hold, delay);
     // x = after_next w[k+1] + g w[k] + T [X_0 .. X_(n-1)]
-    const StateVector<room> g = sum(step.next, 1, moved(step.E, step.after_next, n));
-    const StateVector<room> input = sum(step.now, 1, moved(step.E, g, n));
+    const StateVector<capacity> g = sum(step.next, 1, moved(step.E, step.after_next, n));
+    const StateVector<capacity> input = sum(step.now, 1, moved(step.E, g, n));
     const auto [alpha, T] = expansion_of(filter, step.E, input);
     DeltaSignal signal;
     DeltaChain& chain = signal.chain;
@@ -156,9 +156,9 @@ DeltaSignal delta_signal(const SampledFilter<room>& filter, const StateOutputs<r
     chain.samples = u.data();
     chain.count = u.size();
     chain.begin = step.begin;
-    const StateVector<room> away = times(u[0], sum(step.first, -1, g));
+    const StateVector<capacity> away = times(u[0], sum(step.first, -1, g));
     if (!away.is_zero()) {
-        StateMatrix<room> columns;
+        StateMatrix<capacity> columns;
         for (int j = 0; j < n; ++j)
             for (int k = 0; k < n; ++k) columns(k, j) = T(j, k);
         std::copy_n(scaled_solution(columns, away, n).at, n, chain.start.data());
@@ -177,12 +177,12 @@ DeltaSignal delta_signal(const SampledFilter<room>& filter, const StateOutputs<r
     }
     signal.count = outputs.count;
     for (int i = 0; i < outputs.count; ++i) {
-        const StateVector<room>& C = outputs.C[i];
+        const StateVector<capacity>& C = outputs.C[i];
         double* const output = signal.outputs[i];
         double of_w = (1 - step.weight_of_next) * outputs.D[i], of_next = step.weight_of_next * outputs.D[i];
         for (int k = 0; k < n; ++k) {
             if (C[k] == 0) continue;
-            for (int j = 0; j < room; ++j) output[j] += C[k] * T.column[k][j];
+            for (int j = 0; j < capacity; ++j) output[j] += C[k] * T.column[k][j];
             of_w += C[k] * g[k];
             of_next += C[k] * step.after_next[k];
         }

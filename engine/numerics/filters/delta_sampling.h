@@ -12,15 +12,15 @@ namespace dynlab::inline numerics {
 
 constexpr int kMaxDeltaOutputs = kMaxDeltaOrder;
 
-/// dx/dt = A x + [1; 0; ..] u of n <= 4 poles, in `room` for all states: the companion form of 1/den, or (`twice`) two
-/// of them in a row, the second one driven by the last state of the first. With the step over a sampling interval:
+/// dx/dt = A x + [1; 0; ..] u of n <= 4 poles, in `capacity` for all states: the companion form of 1/den, or (`twice`)
+/// two of them in a row, the second one driven by the last state of the first. With the step over a sampling interval:
 ///     x(Ts) = x + E x + H0 u(0) + H1 u(Ts) on a straight line, x + E x + G u(0) for a held input.
-template <int room>
+template <int capacity>
 struct SampledFilter {
     int poles = 0, states = 0;
     double Ts = 0;
-    StateMatrix<room> A, E;
-    StateVector<room> G, H0, H1;
+    StateMatrix<capacity> A, E;
+    StateVector<capacity> G, H0, H1;
 
     SampledFilter() = default;
     SampledFilter(const VectorView& den, double Ts, bool twice);
@@ -29,10 +29,10 @@ struct SampledFilter {
 };
 
 /// Outputs y = C x + D u of n states.
-template <int room>
+template <int capacity>
 struct StateOutputs {
     int count = 0;
-    StateVector<room> C[kMaxDeltaOutputs];
+    StateVector<capacity> C[kMaxDeltaOutputs];
     double D[kMaxDeltaOutputs] = {};
 };
 
@@ -50,8 +50,8 @@ struct DeltaSignal {
 
 /// These outputs of the filter, for an input with a delay of `delay` seconds. `longer`: as a chain of n + 1 columns,
 /// which linearly interpolated inputs with a delay between samples need.
-template <int room>
-DeltaSignal delta_signal(const SampledFilter<room>& filter, const StateOutputs<room>& outputs, const SampleView& u,
-                         Hold hold, double delay, bool longer);
+template <int capacity>
+DeltaSignal delta_signal(const SampledFilter<capacity>& filter, const StateOutputs<capacity>& outputs,
+                         const SampleView& u, Hold hold, double delay, bool longer);
 
 }  // namespace dynlab::inline numerics

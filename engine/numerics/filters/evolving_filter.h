@@ -25,9 +25,9 @@ struct EvolvingModel {
 using EvolvingState = std::array<double, kMaxEvolvingPoles>;
 
 /// The number of equal pieces in which a step h is gone so that the series converge quickly without cancellation:
-/// sum_i |a_i| (h/pieces)^i <= 1. More than `most`: 0.
-inline int pieces_of_step(const EvolvingModel& model, double h, int most = 1024) {
-    for (int pieces = 1; pieces <= most; pieces *= 2) {
+/// sum_i |a_i| (h/pieces)^i <= 1. More than `max_pieces`: 0.
+inline int pieces_of_step(const EvolvingModel& model, double h, int max_pieces = 1024) {
+    for (int pieces = 1; pieces <= max_pieces; pieces *= 2) {
         double sum = 0, power = 1;
         for (int i = 0; i < model.n; ++i) sum += std::abs(model.a[static_cast<std::size_t>(i)]) * (power *= h / pieces);
         if (sum <= 1) return pieces;

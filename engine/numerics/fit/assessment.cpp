@@ -146,7 +146,7 @@ Message worthlessness(const Fit& fit) {
     return Message();
 }
 
-Message verdict_of(const Assessment& assessment, const Fit& fit, const IdData& data) {
+Message residual_summary(const Assessment& assessment, const Fit& fit, const IdData& data) {
     constexpr Index kFewSamples = 100;  // correlated errors: the intervals of 95 % hold 86 to 91 % up to here
     const std::vector<std::string>& names = data.output_names;
     std::vector<Message> all;
@@ -228,7 +228,7 @@ Assessment assess_channels(const IdData& data, const std::vector<ChannelPlaces>&
         assessment.white = assessment.white && assessment.whiteness.back().white;
     }
     finish(assessment, Psi, errors, lengths, ny, fit.covariance, linear_unknowns);
-    assessment.verdict = verdict_of(assessment, fit, data);
+    assessment.verdict = residual_summary(assessment, fit, data);
     return assessment;
 }
 
@@ -296,7 +296,7 @@ Assessment assess_prediction(const IdData& data, const Fit& fit, const ResidualO
     assessment.whiteness = {whiteness_test(data_sets, options)};
     assessment.white = assessment.whiteness.front().white;
     finish(assessment, Psi, errors, lengths, 1, fit.covariance, linear_unknowns);
-    assessment.verdict = verdict_of(assessment, fit, data);
+    assessment.verdict = residual_summary(assessment, fit, data);
     return assessment;
 }
 

@@ -92,8 +92,8 @@ class ChannelSearch {
     void begin() {
         std::vector<std::vector<Vector>> shares;
         if (data_.regular()) {
-            const double longest = options_.largest_delay.value_or(likely_largest_delay(data_));
-            const LongRegression regression(data_, static_cast<Index>(std::ceil(longest / data_.Ts)));
+            const double max_delay = options_.largest_delay.value_or(likely_largest_delay(data_));
+            const LongRegression regression(data_, static_cast<Index>(std::ceil(max_delay / data_.Ts)));
             for (Index input = 0; input < structure_.inputs; ++input) shares.push_back(regression.share(input));
         }
         if (shares.empty() || shares.front().empty()) {

@@ -24,7 +24,7 @@ constexpr double kScanTolerance = 1e-4;
 constexpr int kScanPasses = 5, kScanIterations = 10;  // at each delay
 constexpr Index kFreshStart = 8;                      // so many delays apart the cutoff frequencies are tried again
 constexpr std::size_t kValleys = 3;                   // of the loss over the delay that are looked at closely
-constexpr std::size_t kMostBeginnings = 5;            // of joint searches
+constexpr std::size_t kMaxBeginnings = 5;             // of joint searches
 constexpr double kFineSpacing = 2;                    // samples
 constexpr Index kFewChanges = 3;                      // of an input that is a step
 
@@ -82,7 +82,7 @@ class DelayCurve {
         for (std::size_t i = 1; i < std::min(kValleys, all.size()); ++i)
             choose(all[i].left + (points_[all[i].left + 1].loss < points_[all[i].left].loss ? 1 : 0));
         for (const std::size_t place : valleys())
-            if (chosen.size() < kMostBeginnings) choose(place);
+            if (chosen.size() < kMaxBeginnings) choose(place);
         return chosen;
     }
 
@@ -194,8 +194,8 @@ class DelayCurve {
     std::vector<DelayPoint> points_;  // in rising order of the delay
 };
 
-Vector delay_grid(const IdData& data, const DelayRange& range, int most) {
-    const double step = std::max(data.mean_step(), (range.largest - range.least) / std::max(1, most - 1));
+Vector delay_grid(const IdData& data, const DelayRange& range, int max_count) {
+    const double step = std::max(data.mean_step(), (range.largest - range.least) / std::max(1, max_count - 1));
     const Index count = 1 + static_cast<Index>(std::floor((range.largest - range.least) / step + 1e-9));
     Vector delays(count);
     for (Index i = 0; i < count; ++i) delays[i] = range.least + static_cast<double>(i) * step;

@@ -29,7 +29,7 @@ double longest_experiment(const IdData& data) {
 /// Channels with separate denominators at one output: each is fitted to its share of a common model.
 void start_channels(const IdData& data, const TransferStructure& structure, Index output, double lambda, Hold hold_y,
                     Vector& theta) {
-    constexpr int kMostCommonPoles = 8;
+    constexpr int kMaxCommonPoles = 8;
     int order = 0, zeros = 0;
     std::vector<double> delays;
     for (Index input = 0; input < structure.inputs; ++input) {
@@ -37,7 +37,7 @@ void start_channels(const IdData& data, const TransferStructure& structure, Inde
         order += structure.poles[static_cast<std::size_t>(channel.denominator)];
         delays.push_back(channel.delay);
     }
-    order = std::min(order, kMostCommonPoles);
+    order = std::min(order, kMaxCommonPoles);
     zeros = order - 1;
     const TransferStructure common =
         TransferStructure::grid(1, structure.inputs, Denominators::kCommon, {order}, {zeros}, delays);
@@ -88,7 +88,7 @@ IdData single_channel(const IdData& data, const std::vector<Vector>& outputs, In
     return part;
 }
 
-IdData beginning_of(const IdData& data, Index most_samples) {
+IdData beginning_of(const IdData& data, Index max_samples) {
     IdData part;
     part.Ts = data.Ts;
     part.hold = data.hold;
@@ -98,7 +98,7 @@ IdData beginning_of(const IdData& data, Index most_samples) {
     part.output_units = data.output_units;
     part.time_unit = data.time_unit;
     for (const Experiment& experiment : data.experiments) {
-        const Index N = std::min(most_samples, experiment.y.rows());
+        const Index N = std::min(max_samples, experiment.y.rows());
         Experiment beginning;
         beginning.y = experiment.y.topRows(N);
         beginning.u = experiment.u.topRows(N);

@@ -8,7 +8,7 @@ namespace dynlab::inline numerics {
 // Start values for iterations and searches of continuous-time transfer functions without a user-defined start.
 
 /// The part of the data on which start values are searched: the beginning, so that it starts from rest like all data.
-IdData beginning_of(const IdData& data, Index most_samples);
+IdData beginning_of(const IdData& data, Index max_samples);
 
 /// The data of one input with this signal in each experiment as the output.
 IdData single_channel(const IdData& data, const std::vector<Vector>& outputs, Index input);

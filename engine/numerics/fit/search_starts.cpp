@@ -23,10 +23,10 @@ constexpr double kApart = 1.5;              // of one added root to the next
 constexpr int kPlaces = 12;                 // to which poles are moved
 constexpr double kSlowestPlace = 0.1;       // rad over the longest experiment
 constexpr double kMovedDamping = 0.1;
-constexpr std::size_t kMostPeaks = 5;
+constexpr std::size_t kMaxPeaks = 5;
 constexpr double kDampingOfPeaks[] = {0.1, 0.02};
 constexpr double kPhases[] = {-1, -0.5, 0.5, 1};  // of a quarter turn, by which a free delay moves at a peak
-constexpr std::size_t kMostExchanged = 4;
+constexpr std::size_t kMaxExchanged = 4;
 constexpr double kMayBecomeBest = 1.2;    // of the loss found, before numerator and poles move together
 constexpr Index kPlacedSamples = 10'000;  // on which the places are compared
 
@@ -275,7 +275,7 @@ std::vector<double> delays_at_peak(const IdData& data, const TransferStructure& 
 std::vector<NestedSolution> pairs_at_peaks(const IdData& data, const TransferStructure& structure, const Fit& found,
                                            const std::vector<PoleExchange>& exchanges, const FitOptions& options) {
     std::vector<NestedSolution> all;
-    for (const double w : response_peaks(data, kMostPeaks))
+    for (const double w : response_peaks(data, kMaxPeaks))
         for (const PoleExchange& exchange : exchanges) {
             if (!exchange.pair) continue;
             NestedSolution best;
@@ -292,7 +292,7 @@ std::vector<NestedSolution> pairs_at_peaks(const IdData& data, const TransferStr
 
 void append_best(std::vector<Vector>& starts, std::vector<NestedSolution> solutions) {
     std::ranges::stable_sort(solutions, {}, &NestedSolution::loss);
-    for (std::size_t i = 0; i < std::min(kMostExchanged, solutions.size()); ++i)
+    for (std::size_t i = 0; i < std::min(kMaxExchanged, solutions.size()); ++i)
         starts.push_back(std::move(solutions[i].theta));
 }
 

@@ -39,15 +39,15 @@ bool is_far_beyond_chance(double chi_squared, Index freedom) {
 }
 
 bool follow_input(const FitErrors& errors, const IdData& data, double delay) {
-    const Index most = kLagsOfErrors + static_cast<Index>(std::ceil(delay / data.mean_step()));
-    const Index lags = std::min(most, kMaxLags);
+    const Index max_lag = kLagsOfErrors + static_cast<Index>(std::ceil(delay / data.mean_step()));
+    const Index lags = std::min(max_lag, kMaxLags);
     Vector with_errors = Vector::Zero(lags), with_itself = Vector::Zero(lags);
     for (std::size_t e = 0; e < data.experiments.size(); ++e) {
         const auto own = errors.of(e);
-        if (own.size() <= 2 * most) return false;
+        if (own.size() <= 2 * max_lag) return false;
         const Vector u = data.experiments[e].u.col(0).array() - data.experiments[e].u.col(0).mean();
         // Entry i pairs u(k + L - i - most), L the entries' number, with the error at k; reversed, lags grow.
-        with_errors += lagged_products(u, own, most).segment(1, lags).reverse();
+        with_errors += lagged_products(u, own, max_lag).segment(1, lags).reverse();
         with_itself += lagged_products(u, u, lags).segment(lags, lags);
     }
     Matrix gram(lags, lags);

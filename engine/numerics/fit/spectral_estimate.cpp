@@ -44,12 +44,12 @@ FrequencyData frequency_data_of(const SpectralEstimate& estimate, const IdData& 
     return response;
 }
 
-IdData nonparametric_data(const std::string& caller, const IdData& data, Index fewest, bool remove_means) {
+IdData nonparametric_data(const std::string& caller, const IdData& data, Index min_samples, bool remove_means) {
     check_channels(caller, data);
     bool input_changes = false, output_changes = false;
     for (const Experiment& experiment : data.experiments) {
-        if (experiment.y.rows() < fewest)
-            throw InvalidArgument("{}: an experiment needs at least {} samples, but one has {}", caller, fewest,
+        if (experiment.y.rows() < min_samples)
+            throw InvalidArgument("{}: an experiment needs at least {} samples, but one has {}", caller, min_samples,
                                   experiment.y.rows());
         input_changes = input_changes || changes(experiment.u);
         output_changes = output_changes || changes(experiment.y);

@@ -26,10 +26,10 @@ struct SpectralEstimate {
 FrequencyData frequency_data_of(const SpectralEstimate& estimate, const IdData& data, const std::string& method,
                                 bool smoothed);
 
-/// What these methods can work on: one input, one output, regular sampling, at least `fewest` samples in every
+/// What these methods can work on: one input, one output, regular sampling, at least `min_samples` samples in every
 /// experiment, neither signal constant. Throws InvalidArgument that begins with `caller` and says what to do. Returns
 /// the data with the mean of every experiment removed when that is wanted.
-IdData nonparametric_data(const std::string& caller, const IdData& data, Index fewest, bool remove_means);
+IdData nonparametric_data(const std::string& caller, const IdData& data, Index min_samples, bool remove_means);
 
 /// Turns averaged (cross) spectra at one frequency into response, spread, coherence and noise. `averages` is the number
 /// of independent values that went into each of them, `real_share` the part of the response's variance that its real

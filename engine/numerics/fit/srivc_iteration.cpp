@@ -10,7 +10,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr int kMostHalvings = 3;  // of a pass that raises the loss
+constexpr int kMaxHalvings = 3;  // of a pass that raises the loss
 constexpr double kContractionLimit = 0.7;
 constexpr double kLeastContraction = 0.05;  // no pass is taken to leave a smaller part of the change before it
 
@@ -125,7 +125,7 @@ SrivcSolution iterate_srivc(const IdData& data, const TransferStructure& structu
         if (!settled && change > kContractionLimit * last_change) {
             const double loss = simulation_loss(data, structure, solution);
             next_loss = simulation_loss(data, structure, next);
-            for (int i = 0; (i < kMostHalvings) && (*next_loss > loss); ++i) {
+            for (int i = 0; (i < kMaxHalvings) && (*next_loss > loss); ++i) {
                 next = groups.with_stable_poles(0.5 * (next + solution.theta), solution.mirrored);
                 next_loss = simulation_loss(data, structure, next);
             }

@@ -311,18 +311,18 @@ std::optional<StructureAdvice> missed_by_output(const IdData& data, const Fit& g
         best->samples = shorter ? data_set.sample_count() : 0;
         return best;
     }
-    double most = 0;
+    double strongest = 0;
     for (const auto& [code, structure] : candidates(data, asked)) {
         const std::optional<Fit> fit = asked.fit_of(structure);
         if (!fit) continue;
         const Explanation found = asked.explanation(*fit);
         const double evidence = evidence_for(present, found);
-        if (!gains(present, found) || !(evidence > most)) continue;
+        if (!gains(present, found) || !(evidence > strongest)) continue;
         const bool feedthrough = code == StructureAdviceCode::kFeedthrough;
         const std::optional<Explanation> moving = feedthrough ? without_hold(asked, found) : std::nullopt;
         const bool moves = moving && gains(present, *moving);
         if (feedthrough && !moves && !is_direct(asked, found)) continue;
-        most = evidence;
+        strongest = evidence;
         best = StructureAdvice{.code = moves ? StructureAdviceCode::kHold : code,
                                .option = moves ? "hold" : option_of(code),
                                .value = value_of(code, *fit),
@@ -399,19 +399,20 @@ bool late_input(const IdData& data, int poles, double loss) {
     options.tolerance = 1e-3;
     const Fit none;
     const Question seen{data, none, options}, early{shifted, none, options}, straight{lines, none, options};
-    const int most = std::max(poles + 1, 3);  // the structure was chosen without knowing
+    const int max_poles = std::max(poles + 1, 3);  // the structure was chosen without knowing
     const auto strictly = [](int n) { return TransferStructure::single(n, n - 1); };
-    const std::optional<Fit> in_time = seen.fit_of(strictly(most)), earlier = early.fit_of(strictly(most));
+    const std::optional<Fit> in_time = seen.fit_of(strictly(max_poles)), earlier = early.fit_of(strictly(max_poles));
     if (!in_time || !earlier) return false;
     const double N = explanation_of(shifted, *earlier, 0).samples;
     const auto gain = [N](double from, const auto& to) { return to ? N * std::log(from / to->loss) : -kInfinity; };
     if (!(gain(std::min(loss, in_time->loss), earlier) > kEvidence)) return false;
-    if (moves_between_samples(data) && gain(earlier->loss, straight.fit_of(strictly(most))) > -kNoWorse) return false;
+    if (moves_between_samples(data) && gain(earlier->loss, straight.fit_of(strictly(max_poles))) > -kNoWorse)
+        return false;
     // A direct feedthrough of n poles is as good as n + 1 poles with the input earlier, one too fast to be seen.
-    for (int n = 1; n <= most; ++n) {
+    for (int n = 1; n <= max_poles; ++n) {
         const std::optional<Fit> direct = seen.fit_of(TransferStructure::single(n, n));
         if (!direct || gain(earlier->loss, direct) < -kAdequate) continue;
-        return gain(direct->loss, n < most ? early.fit_of(strictly(n)) : earlier) > -kNoWorse;
+        return gain(direct->loss, n < max_poles ? early.fit_of(strictly(n)) : earlier) > -kNoWorse;
     }
     return true;
 }
@@ -419,19 +420,19 @@ bool late_input(const IdData& data, int poles, double loss) {
 std::optional<StructureAdvice> missed_structure(const IdData& data, const Fit& fit, const FitOptions& options) {
     if (fit.termination == Termination::kCanceled || !fit.removed.empty()) return std::nullopt;
     if (fit.structure.outputs == 1) return missed_by_output(data, fit, options);
-    std::optional<StructureAdvice> most;
+    std::optional<StructureAdvice> strongest;
     const bool rests = fit.start.state == InitialState::kZero && !fit.start.offset;
-    if (!rests || !outputs_are_separate(fit.structure)) return most;
+    if (!rests || !outputs_are_separate(fit.structure)) return strongest;
     const auto gain = [](const StructureAdvice& one) { return one.better_fit_percent - one.fit_percent; };
     for (Index output = 0; output < fit.structure.outputs; ++output) {
         const OutputProblem problem = output_problem(data, fit.structure, output);
         std::optional<StructureAdvice> missed =
             missed_by_output(problem.data, fit_of_output(fit, problem, output), options);
-        if (!missed || !(gain(*missed) > (most ? gain(*most) : 0))) continue;
+        if (!missed || !(gain(*missed) > (strongest ? gain(*strongest) : 0))) continue;
         missed->output = data.output_names[static_cast<std::size_t>(output)];
-        most = std::move(missed);
+        strongest = std::move(missed);
     }
-    return most;
+    return strongest;
 }
 
 Message sentence_of(const StructureAdvice& missed) {

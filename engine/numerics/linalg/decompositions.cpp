@@ -72,7 +72,7 @@ Matrix solve_by_pivoted_qr(const MatrixView& A, const MatrixView& B) {
     return Eigen::ColPivHouseholderQR<Matrix>(A).solve(B);
 }
 
-Matrix shortest_solution(const MatrixView& A, const MatrixView& B) {
+Matrix minimum_norm_solution(const MatrixView& A, const MatrixView& B) {
     const SingularValues parts = jacobi_svd(A);
     const double size = static_cast<double>(std::max(A.rows(), A.cols())), s0 = parts.s.size() > 0 ? parts.s[0] : 0;
     const Index rank = (parts.s.array() > size * std::numeric_limits<double>::epsilon() * s0).count();

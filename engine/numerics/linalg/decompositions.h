@@ -58,7 +58,7 @@ RotatedEquations rotate_equations(const MatrixView& A, const VectorView& b);
 Matrix full_orthogonal_basis(const MatrixView& A);
 /// The least-squares solution of A X = B: A of full rank in the first, the shortest one in the second.
 Matrix solve_by_pivoted_qr(const MatrixView& A, const MatrixView& B);
-Matrix shortest_solution(const MatrixView& A, const MatrixView& B);
+Matrix minimum_norm_solution(const MatrixView& A, const MatrixView& B);
 
 /// The lower triangle L of A = L L' for a symmetric positive definite A; nothing for another.
 std::optional<Matrix> cholesky_root(const MatrixView& A);

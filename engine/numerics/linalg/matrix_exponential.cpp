@@ -35,10 +35,10 @@ Eigen::RowVectorXd input_scale(const Matrix& B) {
     return scale;
 }
 
-template <int room>
+template <int capacity>
 std::optional<StepMatrices> exact_short_step(const MatrixView& A, const MatrixView& B, double h) {
     const int n = static_cast<int>(A.rows());
-    StateMatrix<room> small;
+    StateMatrix<capacity> small;
     for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i) small(i, j) = A(i, j);
     const auto step = short_step(small, n, h);
@@ -47,9 +47,9 @@ std::optional<StepMatrices> exact_short_step(const MatrixView& A, const MatrixVi
     for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i) all.F(i, j) = step->E(i, j) + (i == j ? 1 : 0);
     for (Index j = 0; j < B.cols(); ++j) {
-        StateVector<room> input;
+        StateVector<capacity> input;
         for (int i = 0; i < n; ++i) input[i] = B(i, j);
-        const StateVector<room> constant = product(step->W, input, n), ramp = product(step->R, input, n);
+        const StateVector<capacity> constant = product(step->W, input, n), ramp = product(step->R, input, n);
         for (int i = 0; i < n; ++i) {
             all.G(i, j) = constant[i];
             all.H1(i, j) = ramp[i];

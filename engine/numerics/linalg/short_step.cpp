@@ -9,8 +9,8 @@ namespace dynlab::inline numerics {
 namespace {
 
 /// The 1-norm; infinity where an entry is not a number.
-template <int room>
-double norm_of(const StateMatrix<room>& Z, int n) {
+template <int capacity>
+double norm_of(const StateMatrix<capacity>& Z, int n) {
     double largest = 0;
     for (int j = 0; j < n; ++j) {
         double sum = 0;
@@ -21,25 +21,25 @@ double norm_of(const StateMatrix<room>& Z, int n) {
     return largest;
 }
 
-template <int room>
-void scale(StateMatrix<room>& Z, double factor, int n) {
+template <int capacity>
+void scale(StateMatrix<capacity>& Z, double factor, int n) {
     for (int j = 0; j < n; ++j)
         for (double& entry : Z.column[j].at) entry *= factor;
 }
 
 }  // namespace
 
-template <int room>
-std::optional<ShortStep<room>> short_step(const StateMatrix<room>& A, int states, double h) {
+template <int capacity>
+std::optional<ShortStep<capacity>> short_step(const StateMatrix<capacity>& A, int states, double h) {
     constexpr double kMaxLength = 0.5, kNegligible = 1e-18;
     constexpr int kMaxDoublings = 3;
-    using Square = StateMatrix<room>;
+    using Square = StateMatrix<capacity>;
     // Loops of a known length are quicker than few steps.
-    const int n = room <= 4 ? room : states;
-    const Square identity = state_identity<room>(states);
+    const int n = capacity <= 4 ? capacity : states;
+    const Square identity = state_identity<capacity>(states);
     Square Z = A;
     scale(Z, h, n);
-    using Columns = Eigen::Map<Matrix, 0, Eigen::OuterStride<room>>;
+    using Columns = Eigen::Map<Matrix, 0, Eigen::OuterStride<capacity>>;
     const Vector balancing = balance(Columns(Z.column[0].at, n, n));
     double size = norm_of(Z, n);
     int doublings = 0;
@@ -52,7 +52,7 @@ std::optional<ShortStep<room>> short_step(const StateMatrix<room>& A, int states
     for (int k = terms; k > 0; --k) {
         const double weight = 1.0 / (k + 2);
         for (int j = 0; j < n; ++j) {
-            StateVector<room> column = identity.column[j];
+            StateVector<capacity> column = identity.column[j];
             for (int i = 0; i < n; ++i) column.add(weight * phi2(i, j), Z.column[i]);
             phi2.column[j] = column;
         }
@@ -70,12 +70,12 @@ std::optional<ShortStep<room>> short_step(const StateMatrix<room>& A, int states
         scale(Z, 2, n);
         E = product(Z, phi1, n);
     }
-    ShortStep<room> step;
-    StateVector<room> rows;
+    ShortStep<capacity> step;
+    StateVector<capacity> rows;
     for (int i = 0; i < n; ++i) rows[i] = balancing[i];
     for (int j = 0; j < n; ++j) {
         const double back = 1 / balancing[j];  // powers of two
-        for (int i = 0; i < room; ++i) {
+        for (int i = 0; i < capacity; ++i) {
             const double factor = back * rows[i];
             step.E(i, j) = factor * E(i, j);
             step.W(i, j) = h * (factor * phi1(i, j));

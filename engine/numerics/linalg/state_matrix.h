@@ -4,28 +4,28 @@
 
 namespace dynlab::inline numerics {
 
-// Vectors and square matrices of up to `room` states (2, 4 or 8), whose number n is known at run time only. What is
+// Vectors and square matrices of up to `capacity` states (2, 4 or 8), whose number n is known at run time only. What is
 // beyond n is zero, so that loops over rows have a length that the compiler knows: machine vectors, without a template
 // for every n.
 
-template <int room>
+template <int capacity>
 struct StateVector {
-    alignas(room * sizeof(double)) double at[room] = {};
+    alignas(capacity * sizeof(double)) double at[capacity] = {};
 
     double operator[](int i) const { return at[i]; }
     double& operator[](int i) { return at[i]; }
     /// this += weight x
     void add(double weight, const StateVector& x) {
-        for (int i = 0; i < room; ++i) at[i] += weight * x.at[i];
+        for (int i = 0; i < capacity; ++i) at[i] += weight * x.at[i];
     }
     bool is_zero() const {
-        return std::all_of(at, at + room, [](double x) { return x == 0; });
+        return std::all_of(at, at + capacity, [](double x) { return x == 0; });
     }
 };
 
-template <int room>
+template <int capacity>
 struct StateMatrix {
-    StateVector<room> column[room];
+    StateVector<capacity> column[capacity];
 
     double operator()(int i, int j) const { return column[j].at[i]; }
     double& operator()(int i, int j) { return column[j].at[i]; }
@@ -36,25 +36,25 @@ struct StateMatrix {
 };
 
 /// The identity of n states.
-template <int room>
-StateMatrix<room> state_identity(int n) {
-    StateMatrix<room> I;
+template <int capacity>
+StateMatrix<capacity> state_identity(int n) {
+    StateMatrix<capacity> I;
     for (int i = 0; i < n; ++i) I(i, i) = 1;
     return I;
 }
 
 /// A x of n states.
-template <int room>
-StateVector<room> product(const StateMatrix<room>& A, const StateVector<room>& x, int n) {
-    StateVector<room> y;
+template <int capacity>
+StateVector<capacity> product(const StateMatrix<capacity>& A, const StateVector<capacity>& x, int n) {
+    StateVector<capacity> y;
     for (int j = 0; j < n; ++j) y.add(x[j], A.column[j]);
     return y;
 }
 
 /// A B of n states.
-template <int room>
-StateMatrix<room> product(const StateMatrix<room>& A, const StateMatrix<room>& B, int n) {
-    StateMatrix<room> C;
+template <int capacity>
+StateMatrix<capacity> product(const StateMatrix<capacity>& A, const StateMatrix<capacity>& B, int n) {
+    StateMatrix<capacity> C;
     for (int j = 0; j < n; ++j) C.column[j] = product(A, B.column[j], n);
     return C;
 }

@@ -118,7 +118,7 @@ TransferFunction exact_d2c(const TransferFunction& G, Hold hold) {
     const Matrix map = discrete_numerators(derivative_filter(den, 1, hold), G.den());
     Vector requested = Vector::Zero(G.den().size());
     requested.tail(G.num().size()) = G.num();
-    const Vector num = without_rounding(shortest_solution(map, requested));
+    const Vector num = without_rounding(minimum_norm_solution(map, requested));
     return TransferFunction(in_seconds(num, G.Ts()), in_seconds(den, G.Ts()), 0, G.delay());
 }
 

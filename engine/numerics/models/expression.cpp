@@ -331,16 +331,17 @@ ExpressionProgram::Schedule ExpressionProgram::in_runs(const std::vector<Step>& 
     }
     Schedule schedule;
     while (schedule.instructions.size() < steps.size()) {
-        const auto most = std::max_element(ready.begin(), ready.end(),
-                                           [](const auto& a, const auto& b) { return a.size() < b.size(); });
+        const auto largest_group = std::max_element(ready.begin(), ready.end(),
+                                                    [](const auto& a, const auto& b) { return a.size() < b.size(); });
         const std::size_t begin = schedule.instructions.size();
-        for (; !most->empty(); most->pop_front()) {
-            const Instruction& one = steps[most->front()].instruction;
+        for (; !largest_group->empty(); largest_group->pop_front()) {
+            const Instruction& one = steps[largest_group->front()].instruction;
             schedule.instructions.push_back(one);
             for (const std::size_t reader : readers[one.target])
                 if (--missing[reader] == 0) make_ready(reader);
         }
-        schedule.runs.push_back({static_cast<Operation>(most - ready.begin()), schedule.instructions.size() - begin});
+        schedule.runs.push_back(
+            {static_cast<Operation>(largest_group - ready.begin()), schedule.instructions.size() - begin});
     }
     return schedule;
 }

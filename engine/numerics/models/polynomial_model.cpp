@@ -13,8 +13,8 @@ namespace {
 
 constexpr int kMaxOrder = 100, kMaxDelay = 1000000;
 
-bool between(int value, int least, int most) {
-    return value >= least && value <= most;
+bool between(int value, int low, int high) {
+    return value >= low && value <= high;
 }
 
 void check_orders(const PolynomialOrders& orders) {

@@ -20,7 +20,7 @@ void add_part(PlantValues& values, const PlantData& simulated_data, const std::s
 
 PlantValues crane_data(const PlantChoice& choice) {
     PlantValues values;
-    for (CraneData& experiment : simulate_crane(crane_variant(choice.specimen), {}, choice.seed))
+    for (CraneData& experiment : simulate_crane(crane_variant(choice.variant_number), {}, choice.seed))
         values.push_back({experiment.name, PlantValues{{"t", std::move(experiment.t)},
                                                        {"u", std::move(experiment.u)},
                                                        {"x", std::move(experiment.x)},
@@ -28,8 +28,8 @@ PlantValues crane_data(const PlantChoice& choice) {
     return values;
 }
 
-PlantValues crane_theory(std::uint32_t specimen) {
-    const CraneTruth truth = crane_truth(crane_variant(specimen));
+PlantValues crane_theory(std::uint32_t variant_number) {
+    const CraneTruth truth = crane_truth(crane_variant(variant_number));
     return {{"natural_frequency", truth.natural_frequency},
             {"damping_ratio", truth.damping_ratio},
             {"speed_gain", truth.speed_gain},
@@ -39,11 +39,12 @@ PlantValues crane_theory(std::uint32_t specimen) {
 }
 
 PlantValues drifting_process_data(const PlantChoice& choice) {
-    return input_and_output(simulate_drifting_process(drifting_process_variant(choice.specimen), {}, choice.seed));
+    return input_and_output(
+        simulate_drifting_process(drifting_process_variant(choice.variant_number), {}, choice.seed));
 }
 
-PlantValues drifting_process_theory(std::uint32_t specimen) {
-    const DriftingProcessParameters plant = drifting_process_variant(specimen);
+PlantValues drifting_process_theory(std::uint32_t variant_number) {
+    const DriftingProcessParameters plant = drifting_process_variant(variant_number);
     const PlantData simulated_data = simulate_drifting_process(plant, {}, 1);
     const Vector& t = simulated_data.t;
     return {{"noise_std", plant.noise_std},
@@ -55,7 +56,7 @@ PlantValues drifting_process_theory(std::uint32_t specimen) {
 
 PlantValues drive_data(const PlantChoice& choice) {
     PlantValues values;
-    for (DriveData& experiment : simulate_drive(drive_variant(choice.specimen), {}, choice.seed))
+    for (DriveData& experiment : simulate_drive(drive_variant(choice.variant_number), {}, choice.seed))
         values.push_back({experiment.name, PlantValues{{"t", std::move(experiment.t)},
                                                        {"r", std::move(experiment.r)},
                                                        {"u", std::move(experiment.u)},
@@ -63,18 +64,18 @@ PlantValues drive_data(const PlantChoice& choice) {
     return values;
 }
 
-PlantValues drive_theory(std::uint32_t specimen) {
-    const DriveParameters plant = drive_variant(specimen);
+PlantValues drive_theory(std::uint32_t variant_number) {
+    const DriveParameters plant = drive_variant(variant_number);
     return {{"G", drive_plant(plant)},    {"load", drive_load(plant)},    {"controller", drive_controller(plant)},
             {"load_std", plant.load_std}, {"load_time", plant.load_time}, {"noise_std", plant.noise_std}};
 }
 
 PlantValues heat_exchanger_data(const PlantChoice& choice) {
-    return input_and_output(simulate_heat_exchanger(heat_exchanger_variant(choice.specimen), choice.seed));
+    return input_and_output(simulate_heat_exchanger(heat_exchanger_variant(choice.variant_number), choice.seed));
 }
 
-PlantValues heat_exchanger_theory(std::uint32_t specimen) {
-    const HeatExchangerTruth truth = heat_exchanger_truth(heat_exchanger_variant(specimen));
+PlantValues heat_exchanger_theory(std::uint32_t variant_number) {
+    const HeatExchangerTruth truth = heat_exchanger_truth(heat_exchanger_variant(variant_number));
     return {{"gain", truth.gain},
             {"time_constant", truth.time_constant},
             {"output_at_zero_input", truth.output_at_zero_input},
@@ -83,15 +84,16 @@ PlantValues heat_exchanger_theory(std::uint32_t specimen) {
 }
 
 PlantValues heat_transfer_data(const PlantChoice& choice) {
-    const HeatTransferData data_sets = simulate_heat_transfer(heat_transfer_variant(choice.specimen), {}, choice.seed);
+    const HeatTransferData data_sets =
+        simulate_heat_transfer(heat_transfer_variant(choice.variant_number), {}, choice.seed);
     PlantValues values = input_and_output(data_sets.estimation);
     add_part(values, data_sets.validation, "_val");
     add_part(values, data_sets.high, "_high");
     return values;
 }
 
-PlantValues heat_transfer_theory(std::uint32_t specimen) {
-    const HeatTransferParameters plant = heat_transfer_variant(specimen);
+PlantValues heat_transfer_theory(std::uint32_t variant_number) {
+    const HeatTransferParameters plant = heat_transfer_variant(variant_number);
     const HeatTransferExperiments plan;
     const auto about = [&plant](double voltage) {
         const HeatTransferTruth truth = heat_transfer_truth(plant, voltage);
@@ -108,20 +110,21 @@ PlantValues heat_transfer_theory(std::uint32_t specimen) {
 }
 
 PlantValues linear_system_data(const PlantChoice& choice) {
-    const LinearSystemData data_sets = simulate_linear_system(linear_system_variant(choice.specimen), choice.seed);
+    const LinearSystemData data_sets =
+        simulate_linear_system(linear_system_variant(choice.variant_number), choice.seed);
     PlantValues values = input_and_output(data_sets.estimation);
     add_part(values, data_sets.validation, "_val");
     return values;
 }
 
-PlantValues linear_system_theory(std::uint32_t specimen) {
-    const LinearSystemParameters plant = linear_system_variant(specimen);
+PlantValues linear_system_theory(std::uint32_t variant_number) {
+    const LinearSystemParameters plant = linear_system_variant(variant_number);
     return {{"noise_std", plant.noise_std}, {"G", linear_system_truth(plant)}};
 }
 
 PlantValues step_response_data(const PlantChoice& choice) {
     const FirstOrderStepData simulated_data =
-        simulate_first_order_step(step_response_variant(choice.specimen), choice.seed);
+        simulate_first_order_step(step_response_variant(choice.variant_number), choice.seed);
     return {{"t", simulated_data.t},
             {"u", simulated_data.u},
             {"y", simulated_data.y},
@@ -130,17 +133,17 @@ PlantValues step_response_data(const PlantChoice& choice) {
             {"ydot_noisy", simulated_data.ydot_noisy}};
 }
 
-PlantValues step_response_theory(std::uint32_t specimen) {
-    const FirstOrderStepTruth truth = first_order_step_truth(step_response_variant(specimen));
+PlantValues step_response_theory(std::uint32_t variant_number) {
+    const FirstOrderStepTruth truth = first_order_step_truth(step_response_variant(variant_number));
     return {{"a", truth.a}, {"b", truth.b}, {"f", truth.f}, {"g", truth.g}};
 }
 
 PlantValues suspension_data(const PlantChoice& choice) {
-    return input_and_output(simulate_suspension(suspension_variant(choice.specimen), choice.seed));
+    return input_and_output(simulate_suspension(suspension_variant(choice.variant_number), choice.seed));
 }
 
-PlantValues suspension_theory(std::uint32_t specimen) {
-    const SuspensionTruth truth = suspension_truth(suspension_variant(specimen));
+PlantValues suspension_theory(std::uint32_t variant_number) {
+    const SuspensionTruth truth = suspension_truth(suspension_variant(variant_number));
     return {{"gain", truth.gain},
             {"natural_frequency", truth.natural_frequency},
             {"damping_ratio", truth.damping_ratio},
@@ -150,15 +153,15 @@ PlantValues suspension_theory(std::uint32_t specimen) {
 
 PlantValues thruster_data(const PlantChoice& choice) {
     PlantValues values;
-    for (ThrusterData& experiment : simulate_thruster(thruster_variant(choice.specimen), {}, choice.seed))
+    for (ThrusterData& experiment : simulate_thruster(thruster_variant(choice.variant_number), {}, choice.seed))
         values.push_back({experiment.name, PlantValues{{"t", std::move(experiment.t)},
                                                        {"pwm", std::move(experiment.pwm)},
                                                        {"force", std::move(experiment.force)}}});
     return values;
 }
 
-PlantValues thruster_theory(std::uint32_t specimen) {
-    const ThrusterParameters plant = thruster_variant(specimen);
+PlantValues thruster_theory(std::uint32_t variant_number) {
+    const ThrusterParameters plant = thruster_variant(variant_number);
     const ThrusterTruth truth = thruster_truth(plant);
     const Vector pwm = Vector::LinSpaced(81, plant.neutral - plant.full_width, plant.neutral + plant.full_width);
     const Vector thrust = pwm.unaryExpr([&plant](double width) { return thruster_thrust(plant, width); });
@@ -176,14 +179,14 @@ PlantValues thruster_theory(std::uint32_t specimen) {
 }
 
 PlantValues two_tanks_data(const PlantChoice& choice) {
-    const TwoTanksData data_sets = simulate_two_tanks(two_tanks_variant(choice.specimen), {}, choice.seed);
+    const TwoTanksData data_sets = simulate_two_tanks(two_tanks_variant(choice.variant_number), {}, choice.seed);
     PlantValues values = input_and_output(data_sets.estimation);
     add_part(values, data_sets.validation, "_val");
     return values;
 }
 
-PlantValues two_tanks_theory(std::uint32_t specimen) {
-    const TwoTanksParameters plant = two_tanks_variant(specimen);
+PlantValues two_tanks_theory(std::uint32_t variant_number) {
+    const TwoTanksParameters plant = two_tanks_variant(variant_number);
     const double voltage = TwoTanksExperiments().mean_voltage;
     const TwoTanksTruth truth = two_tanks_truth(plant, voltage);
     return {{"k1", plant.k1},
@@ -204,7 +207,7 @@ PlantValues two_tanks_theory(std::uint32_t specimen) {
                                  {"lower", truth.lower}}}};
 }
 
-std::vector<Plant> all_rigs() {
+std::vector<Plant> all_plants() {
     return {
         {"crane",
          "Trolley crane",
@@ -290,15 +293,15 @@ std::vector<Plant> all_rigs() {
 }  // namespace
 
 std::span<const Plant> plant_catalog() {
-    static const std::vector<Plant> rigs = all_rigs();
-    return rigs;
+    static const std::vector<Plant> plants = all_plants();
+    return plants;
 }
 
 const Plant* find_plant(std::string_view name) {
-    const std::span<const Plant> rigs = plant_catalog();
+    const std::span<const Plant> plants = plant_catalog();
     const auto found =
-        std::find_if(rigs.begin(), rigs.end(), [name](const Plant& plant) { return plant.name == name; });
-    return found == rigs.end() ? nullptr : &*found;
+        std::find_if(plants.begin(), plants.end(), [name](const Plant& plant) { return plant.name == name; });
+    return found == plants.end() ? nullptr : &*found;
 }
 
 }  // namespace dynlab::inline numerics

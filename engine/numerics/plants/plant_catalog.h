@@ -26,8 +26,9 @@ struct PlantSignal {
 
 /// Selects a data set. Default: the stored data set.
 struct PlantChoice {
-    std::uint32_t specimen = 0;  ///< plant variant (plant_variant.h); 0: the parameters in the header of the plant
-    std::uint32_t seed = 1;      ///< of noise and of random inputs
+    std::uint32_t variant_number =
+        0;                   ///< plant variant (plant_variant.h); 0: the parameters in the header of the plant
+    std::uint32_t seed = 1;  ///< of noise and of random inputs
 };
 
 /// One of the course's simulated plants. Its stored data set has the same name.
@@ -41,7 +42,7 @@ struct Plant {
     /// Returns the data set, N values for each signal. Equal choices give equal data on every machine.
     PlantValues (*simulated_data)(const PlantChoice& choice) = nullptr;
     /// True parameters of the plant variant, without noise.
-    PlantValues (*truth)(std::uint32_t specimen) = nullptr;
+    PlantValues (*truth)(std::uint32_t variant_number) = nullptr;
 };
 
 /// The table of plants, sorted by name.

@@ -19,7 +19,7 @@ void remove_line(Matrix& signals, const Vector& t, TrendKind kind) {
 }
 
 constexpr double kStays = 0.05;  // part of an input's range within which it counts as not yet changed
-constexpr Index kFewestLeft = 3;
+constexpr Index kMinRemaining = 3;
 
 /// Samples before the first change of any input; all of them when none changes.
 Index samples_before_change(const Matrix& u) {
@@ -41,7 +41,7 @@ Index initial_stretch(const Experiment& experiment, Index samples) {
             "detrend: without an input, the end of the initial rest is unknown; specify the number of samples, as in "
             "detrend(data, \"start\", {samples = 20})");
     const Index found = samples_before_change(experiment.u);
-    if (found >= kFewestLeft) return found;
+    if (found >= kMinRemaining) return found;
     throw InvalidArgument(
         "detrend: the input already changes at sample {}, so the data contain no initial level. Remove the mean "
         "instead, or specify the number of samples to use, as in detrend(data, \"start\", {samples = 20})",

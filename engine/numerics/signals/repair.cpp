@@ -84,7 +84,7 @@ class MovingMedian {
 
 }  // namespace
 
-RepairedSignal fill_missing(const VectorView& x, const VectorView& t, std::optional<Index> longest, FillMethod method) {
+RepairedSignal fill_missing(const VectorView& x, const VectorView& t, std::optional<Index> max_gap, FillMethod method) {
     if (t.size() > 0 && t.size() != x.size())
         throw InvalidArgument("fillmissing: the signal has {} but the time vector has {}",
                               plural(x.size(), "{} sample", "{} samples"),
@@ -96,15 +96,15 @@ RepairedSignal fill_missing(const VectorView& x, const VectorView& t, std::optio
         throw InvalidArgument("fillmissing: all samples of the signal are missing");
     RepairedSignal result = bridged(x, t, good, method);
     constexpr Index kMaxLineLength = 10;
-    const Index most = longest.value_or(method == FillMethod::kLinear ? kMaxLineLength : x.size());
+    const Index max_length = max_gap.value_or(method == FillMethod::kLinear ? kMaxLineLength : x.size());
     for (const auto& [first, last] : result.stretches)
-        if (last - first + 1 > most)
+        if (last - first + 1 > max_length)
             throw InvalidArgument(
                 "fillmissing: samples {} to {} are missing, a gap of more than {}. For an input that is logged when it "
                 "changes, use {method = \"previous\"}. For an output, use the parts before and after the gap as two "
                 "experiments. Alternatively, pass only the measured samples to iddata, with their times as {}. The "
                 "option {longest = {}} allows linear interpolation across the gap",
-                first, last, plural(most, "{} sample", "{} samples"), OptionName{"sampling_instants"},
+                first, last, plural(max_length, "{} sample", "{} samples"), OptionName{"sampling_instants"},
                 last - first + 1);
     return result;
 }

@@ -19,8 +19,8 @@ enum class FillMethod { kLinear, kPrevious };
 /// neighbors (kLinear, for a sampled output), or hold the sample before them (kPrevious, for an input that is logged
 /// when it changes); at the ends the nearest sample. `t` holds increasing instants, or nothing for regular sampling.
 /// Throws InvalidArgument when there is no finite sample, for instants of another number or order, and for a gap of
-/// more than `longest` samples, 10 for kLinear by default: a straight line over a long gap is invention.
-RepairedSignal fill_missing(const VectorView& x, const VectorView& t = Vector(), std::optional<Index> longest = {},
+/// more than `max_gap` samples, 10 for kLinear by default: a straight line over a long gap is invention.
+RepairedSignal fill_missing(const VectorView& x, const VectorView& t = Vector(), std::optional<Index> max_gap = {},
                             FillMethod method = FillMethod::kLinear);
 
 struct OutlierOptions {

@@ -11,14 +11,14 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr Index kSegments = 4;  // of the shortest experiment
-constexpr Index kShortestSegment = 64, kLongestSegment = 8192;
+constexpr Index kMinSegmentLength = 64, kMaxSegmentLength = 8192;
 constexpr Index kNeighbors = 2;  // on each side, below a peak
 
 Index segment_length(const IdData& data) {
     Index shortest = data.sample_count();
     for (const Experiment& experiment : data.experiments) shortest = std::min(shortest, experiment.y.rows());
-    Index length = kShortestSegment;
-    while (length < kLongestSegment && kSegments * length < shortest) length *= 2;
+    Index length = kMinSegmentLength;
+    while (length < kMaxSegmentLength && kSegments * length < shortest) length *= 2;
     return length;
 }
 
@@ -45,7 +45,7 @@ Vector explained_power(const IdData& data, Index length) {
 
 }  // namespace
 
-std::vector<double> response_peaks(const IdData& data, std::size_t most) {
+std::vector<double> response_peaks(const IdData& data, std::size_t max_count) {
     if (!data.regular() || data.input_count() == 0) return {};
     const Index length = segment_length(data);
     const Vector power = explained_power(data, length);
@@ -57,7 +57,7 @@ std::vector<double> response_peaks(const IdData& data, std::size_t most) {
     }
     std::ranges::stable_sort(peaks, [&](Index a, Index b) { return power[a] > power[b]; });
     std::vector<double> frequencies;
-    for (std::size_t i = 0; i < std::min(most, peaks.size()); ++i)
+    for (std::size_t i = 0; i < std::min(max_count, peaks.size()); ++i)
         frequencies.push_back(2 * std::numbers::pi * static_cast<double>(peaks[i] + 1) /
                               (static_cast<double>(length) * data.Ts));
     return frequencies;

@@ -55,12 +55,12 @@ std::vector<Segment> joined(std::vector<Segment> segments) {
     return result;
 }
 
-IdData discard_segments(const IdData& data, const std::vector<Segment>& discarded, Index shortest) {
+IdData discard_segments(const IdData& data, const std::vector<Segment>& discarded, Index min_length) {
     check_segments("discard", data, discarded);
     std::vector<Segment> kept;
     Index next = 1;
     const auto keep_until = [&](Index last) {
-        if (last - next + 1 >= std::max<Index>(shortest, 1)) kept.push_back({next, last});
+        if (last - next + 1 >= std::max<Index>(min_length, 1)) kept.push_back({next, last});
     };
     for (const Segment& segment : joined(discarded)) {
         keep_until(segment.first - 1);

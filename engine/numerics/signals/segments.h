@@ -16,9 +16,9 @@ struct Segment {
 /// for two that overlap.
 IdData keep_segments(const IdData& data, const std::vector<Segment>& kept);
 
-/// What is left when these stretches, which may overlap, are cut out. Leftovers shorter than `shortest` samples go too.
-/// Throws like keep_segments, and when nothing is left.
-IdData discard_segments(const IdData& data, const std::vector<Segment>& discarded, Index shortest = 2);
+/// What is left when these stretches, which may overlap, are cut out. Leftovers shorter than `min_length` samples go
+/// too. Throws like keep_segments, and when nothing is left.
+IdData discard_segments(const IdData& data, const std::vector<Segment>& discarded, Index min_length = 2);
 
 /// In order, overlapping and touching ones joined.
 std::vector<Segment> joined(std::vector<Segment> segments);

@@ -45,7 +45,7 @@ CompanionSeries::CompanionSeries(const CompanionPair& pair)
 }
 
 void CompanionSeries::set_terms(const Matrix& A) {
-    gap = order > kMostOfOneRow ? 2 : order;
+    gap = order > kMaxStatesOfOneRow ? 2 : order;
     std::array<double, kLastTerm + 3> largest = {};  // coefficients of h^k, inputs in units of A
     const Index n = order, systems = twice ? 2 : 1, rows = (n + gap - 1) / gap, inputs = rows * systems;
     const Index count = inputs * (n + 2);
@@ -56,9 +56,9 @@ void CompanionSeries::set_terms(const Matrix& A) {
         Eigen::RowVectorXd row = Eigen::RowVectorXd::Unit(A.rows(), A.rows() - 1 - i * gap), next_row = row;
         Eigen::Vector2d input = Eigen::Vector2d::Zero(), ramp = Eigen::Vector2d::Zero();  // of both systems
         for (Index k = 0; k <= kLastTerm + 2; ++k) {
-            double& most = largest[static_cast<std::size_t>(k)];
-            most = std::max({most, row.cwiseAbs().maxCoeff(), rate * input.cwiseAbs().maxCoeff(),
-                             rate * rate * ramp.cwiseAbs().maxCoeff()});
+            double& max_magnitude = largest[static_cast<std::size_t>(k)];
+            max_magnitude = std::max({max_magnitude, row.cwiseAbs().maxCoeff(), rate * input.cwiseAbs().maxCoeff(),
+                                      rate * rate * ramp.cwiseAbs().maxCoeff()});
             for (Index system = 0; system < systems && k <= kLastTerm; ++system) {
                 auto own = terms.col(k).segment(first_term + system * (n + 1), n + 1);
                 own.head(n) = row.segment(system == 0 ? A.rows() - n : 0, n).transpose();
@@ -79,12 +79,12 @@ void CompanionSeries::set_terms(const Matrix& A) {
         reach[last] = std::min(reach_of(last + 1), reach_of(last + 2));
 }
 
-StepPlan::StepPlan(const CompanionSeries& series, double longest) {
+StepPlan::StepPlan(const CompanionSeries& series, double max_step) {
     constexpr int kMaxDoublings = 1000;  // more than numbers have
-    for (; longest > series.reach.back() && doublings < kMaxDoublings; longest /= 2) ++doublings;
+    for (; max_step > series.reach.back() && doublings < kMaxDoublings; max_step /= 2) ++doublings;
     part = std::ldexp(1.0, -doublings);
     last_term = CompanionSeries::kLastTerm;
-    while (last_term > 2 && longest <= series.reach[static_cast<std::size_t>(last_term - 1)]) --last_term;
+    while (last_term > 2 && max_step <= series.reach[static_cast<std::size_t>(last_term - 1)]) --last_term;
 }
 
 }  // namespace dynlab::inline numerics

@@ -17,7 +17,7 @@ struct CompanionSeries {
     Index order = 0;  ///< n, of one system
     Vector scale;     ///< of all states: x = scale * what is computed with; 1 for the first, powers of two
     /// The rows of series, the last one first, are `gap` apart.
-    static constexpr Index kMostOfOneRow = 5;  // states
+    static constexpr Index kMaxStatesOfOneRow = 5;  // states
     Index gap = 1;
     /// Column k: the coefficients of h^k; for each such row those of exp(A h) - I's row, of its constant input, and
     /// with a second system of its share of the first and constant input; behind them the ramps of all, then zeros.
@@ -43,7 +43,7 @@ struct StepPlan {
     int doublings = 0;
     Index last_term = 0;
 
-    StepPlan(const CompanionSeries& series, double longest);
+    StepPlan(const CompanionSeries& series, double max_step);
 };
 
 }  // namespace dynlab::inline numerics

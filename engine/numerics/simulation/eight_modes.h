@@ -24,10 +24,10 @@ class EightModes {
     Index entries() const { return kPoles * kOfMode; }
 
     /// The next steps are none longer than this (s).
-    void prepare(double longest) {
+    void prepare(double max_step) {
         double largest = 0;
         for (Index i = 0; i < kPoles; ++i) {
-            const double x = std::abs(poles_[i]) * longest;
+            const double x = std::abs(poles_[i]) * max_step;
             beyond_series_[i] = x > kOfSeries;
             largest = std::max(largest, std::min(x, kOfSeries));
         }

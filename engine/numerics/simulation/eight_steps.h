@@ -19,7 +19,7 @@ class EightSteps : public StepMap<kOrder, kTwice> {
         : Map(series, ramps), series_(series), ramps_(ramps), plan_(series, 0), doubled_(this->own().size()) {}
 
     /// The next steps are none longer than this (s).
-    void prepare(double longest) { plan_ = StepPlan(series_, longest); }
+    void prepare(double max_step) { plan_ = StepPlan(series_, max_step); }
 
     /// For steps of `length` (s).
     void set(const Eight& length, Eight* map) {

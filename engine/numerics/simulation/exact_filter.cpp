@@ -16,13 +16,13 @@ constexpr Index kMaxWindow = ExactFilter::kBlock + 2;  // u[k-d-1] ... u[k-d+kBl
 /// The first columns of A B by plain loops: Eigen's take several times as long where the sizes are small and not known
 /// to the compiler.
 void multiply(const Matrix& A, const Matrix& B, Index columns, Matrix& product) {
-    constexpr int kRoom = 4;
-    if (A.rows() <= kRoom && A.cols() <= kRoom) {
-        StateMatrix<kRoom> small;
+    constexpr int kCapacity = 4;
+    if (A.rows() <= kCapacity && A.cols() <= kCapacity) {
+        StateMatrix<kCapacity> small;
         for (int k = 0; k < A.cols(); ++k)
             for (int i = 0; i < A.rows(); ++i) small(i, k) = A(i, k);
         for (Index j = 0; j < columns; ++j) {
-            StateVector<kRoom> column;
+            StateVector<kCapacity> column;
             for (int k = 0; k < A.cols(); ++k) column.add(B(k, j), small.column[k]);
             for (int i = 0; i < A.rows(); ++i) product(i, j) = column[i];
         }

@@ -79,8 +79,8 @@ void IrregularEvents::set(const VectorView& u, const VectorView& t, double delay
     while (count % kBlock != 0) add<kSlopes>(0, 0, 0, -1);
 }
 
-void IrregularEvents::reserve(Index most, bool slopes) {
-    const Index all = (most + kBlock - 1) / kBlock * kBlock;
+void IrregularEvents::reserve(Index max_count, bool slopes) {
+    const Index all = (max_count + kBlock - 1) / kBlock * kBlock;
     length.resize(all);
     input.resize(all);
     if (slopes) slope.resize(all);

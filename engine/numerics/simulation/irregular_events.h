@@ -24,7 +24,7 @@ struct IrregularEvents {
     IrregularEvents(const VectorView& u, const VectorView& t, Hold hold, double delay);
 
   private:
-    void reserve(Index most, bool slopes);
+    void reserve(Index max_count, bool slopes);
     template <bool kSlopes>
     void set(const VectorView& u, const VectorView& t, double delay);
     template <bool kSlopes>

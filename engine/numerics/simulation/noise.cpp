@@ -11,7 +11,7 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr double kRunInDecay = 1e-8;
-constexpr double kLongestRunIn = 1e6;  // samples
+constexpr double kMaxRunIn = 1e6;  // samples
 
 /// Samples after which the response of C/D has decayed; 0 where it has none, or where it never does.
 Index decay_time(const Vector& C, const Vector& D) {
@@ -20,7 +20,7 @@ Index decay_time(const Vector& C, const Vector& D) {
     if (slowest >= 1) return 0;
     const double samples = slowest == 0 ? 0 : std::log(kRunInDecay) / std::log(slowest);
     // Roots that lie together decay more slowly than one of them.
-    return static_cast<Index>(std::min(static_cast<double>(D.size()) * samples, kLongestRunIn)) + C.size() + D.size();
+    return static_cast<Index>(std::min(static_cast<double>(D.size()) * samples, kMaxRunIn)) + C.size() + D.size();
 }
 
 Vector colored(const Vector& C, const Vector& D, const Vector& e) {

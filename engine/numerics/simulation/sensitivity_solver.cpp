@@ -41,7 +41,7 @@ constexpr double kImplicitError[kImplicitStages] = {
 constexpr double kSafety = 0.9, kSlowest = 0.2, kFastest = 5;
 /// Steps of an interval, those tried in vain, and those that no step short enough was found for: beyond, its equation
 /// has jumps.
-constexpr int kMaxSteps = 20'000, kMostRejected = 200, kMaxMisses = 20;
+constexpr int kMaxSteps = 20'000, kMaxRejectedSteps = 200, kMaxMisses = 20;
 constexpr double kRoughShare = 1. / 64,
                  kLeastShare = 1e-10;  // of an interval, for steps taken whatever their error
 constexpr std::size_t kRoughTimes = 10;
@@ -247,7 +247,7 @@ void SensitivitySolver::advance(double t_begin, double t_end, const double* u_be
     if (!(next_step_ > 0)) next_step_ = over.length;
     for (int steps = 0, missed = 0, rejected = 0; t < t_end; ++steps) {
         const double left = t_end - t;
-        const bool rough = steps >= kMaxSteps || rejected >= kMostRejected || missed >= kMaxMisses;
+        const bool rough = steps >= kMaxSteps || rejected >= kMaxRejectedSteps || missed >= kMaxMisses;
         const bool last = next_step_ >= left;
         double h = last ? left : std::min(next_step_, 0.5 * left);
         if (rough) h = std::min(left, std::max(h, kRoughShare * over.length));

@@ -10,7 +10,7 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr double kPolesApart = 0.5;  // of the larger of two poles, by which they differ
-constexpr Index kMostModes = 4;      // the more there are, the more digits their sums lose
+constexpr Index kMaxModes = 4;       // the more there are, the more digits their sums lose
 
 bool are_apart(const Vector& poles) {
     for (Index i = 0; i < poles.size(); ++i)
@@ -30,7 +30,7 @@ void polish(Vector& roots, const Vector& p) {
 }
 
 std::optional<Vector> separate_poles(const Matrix& companion_matrix) {
-    if (companion_matrix.rows() > kMostModes || !companion_matrix.row(0).allFinite()) return std::nullopt;
+    if (companion_matrix.rows() > kMaxModes || !companion_matrix.row(0).allFinite()) return std::nullopt;
     const Vector p = monic(-companion_matrix.row(0).transpose());
     const ComplexVector found = roots(p);
     if ((found.imag().array() != 0).any()) return std::nullopt;

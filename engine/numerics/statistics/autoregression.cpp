@@ -97,7 +97,7 @@ Index highest_autoregressive_order(Index N) {
     return N < 2 ? 0 : static_cast<Index>(20 * std::log10(static_cast<double>(N)));
 }
 
-Autoregression fit_autoregression(const VectorView& e, const std::vector<Index>& lengths, Index most,
+Autoregression fit_autoregression(const VectorView& e, const std::vector<Index>& lengths, Index max_order,
                                   AutoregressiveOrder choice) {
     check_autoregression(e.size(), lengths);
     if (!e.allFinite()) throw InvalidArgument("An autoregressive model needs a signal in which all samples are finite");
@@ -105,7 +105,8 @@ Autoregression fit_autoregression(const VectorView& e, const std::vector<Index>&
     Autoregression model{{Vector()}, e.size() > 0 ? e.squaredNorm() / N : 0};
     if (model.variance == 0) return model;
     const Index longest = *std::max_element(lengths.begin(), lengths.end());
-    const Index highest = choice == AutoregressiveOrder::kMaxInteger ? most : std::min(most, (longest - 1) / 4);
+    const Index highest =
+        choice == AutoregressiveOrder::kMaxInteger ? max_order : std::min(max_order, (longest - 1) / 4);
     double least = order_criterion(choice, N, 0, model.variance), variance = model.variance;
     std::size_t chosen = 0;
     BurgLattice lattice(e, lengths);

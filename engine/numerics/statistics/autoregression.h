@@ -21,10 +21,10 @@ struct Autoregression {
 enum class AutoregressiveOrder { kAicc, kBic, kMaxInteger };
 
 /// The autoregression of `e` by Burg's method (Kay 1988, section 7.3). The mean is not subtracted. `lengths` (summing
-/// to the number of values) are the lengths of uninterrupted parts. Orders are at most `most`, selected orders at most
-/// a quarter of the longest part, and they end when nothing is left to predict. A signal that is zero has order 0.
+/// to the number of values) are the lengths of uninterrupted parts. Orders are at most `max_order`, selected orders at
+/// most a quarter of the longest part, and they end when nothing is left to predict. A signal that is zero has order 0.
 /// Throws InvalidArgument for lengths that do not add up and for values that are not finite.
-Autoregression fit_autoregression(const VectorView& e, const std::vector<Index>& lengths, Index most,
+Autoregression fit_autoregression(const VectorView& e, const std::vector<Index>& lengths, Index max_order,
                                   AutoregressiveOrder choice = AutoregressiveOrder::kAicc);
 
 /// The highest order worth trying for N values: 20 log10 N, enough for the sum of a slow and of a white noise.

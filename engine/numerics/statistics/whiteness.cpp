@@ -11,14 +11,14 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-Message white_verdict(ModelError kind, const Message& probability, Index lags) {
+Message white_message(ModelError kind, const Message& probability, Index lags) {
     if (kind == ModelError::kPrediction)
         return Message("The prediction error is white (Ljung-Box {} over {}).", probability,
                        plural(lags, "{} lag", "{} lags"));
     return Message("The output error is white (Ljung-Box {} over {}).", probability, plural(lags, "{} lag", "{} lags"));
 }
 
-Message colored_verdict(ModelError kind, const Message& probability, Index outside, Index lags, double confidence) {
+Message colored_message(ModelError kind, const Message& probability, Index outside, Index lags, double confidence) {
     const Number percent = significant(100 * confidence, 4);
     if (kind == ModelError::kPrediction)
         return Message("The prediction error is not white (Ljung-Box {}; {} of {} lags exceed the {} % bound).",
@@ -59,8 +59,8 @@ WhitenessTest whiteness_of_covariances(const std::vector<Vector>& e, const Vecto
     test.p_value = chi_squared_upper_tail(test.statistic, static_cast<double>(test.degrees));
     test.white = test.p_value >= 1 - confidence;
     const Message probability = probability_text(test.p_value);
-    test.verdict = test.white ? white_verdict(kind, probability, lags)
-                              : colored_verdict(kind, probability, test.outside, lags, confidence);
+    test.verdict = test.white ? white_message(kind, probability, lags)
+                              : colored_message(kind, probability, test.outside, lags, confidence);
     return test;
 }
 

@@ -19,7 +19,7 @@ double prediction_error(const Vector& x) {
 
 bool is_wrapped(const VectorView& x, double period) {
     constexpr double kAngleSlack = 0.05, kFilled = 0.9, kNearEnd = 0.3;  // of the period
-    constexpr double kMostJumps = 0.7, kMuchBetter = 0.5;
+    constexpr double kMaxJumpShare = 0.7, kMuchBetter = 0.5;
     constexpr double kUsual = 3;  // times the largest other step
     const double low = x.minCoeff(), high = x.maxCoeff(), slack = kAngleSlack * period;
     const bool centered = low >= -period / 2 - slack && high <= period / 2 + slack;
@@ -40,7 +40,7 @@ bool is_wrapped(const VectorView& x, double period) {
     }
     // A signal that jumps anyway, as a square wave does, has no steps that unwrapping could make usual; nor does
     // unwrapping make noise or a fast sine easier to predict.
-    return jumps > 0 && static_cast<double>(from_ends) >= kMostJumps * static_cast<double>(jumps) && usual > 0 &&
+    return jumps > 0 && static_cast<double>(from_ends) >= kMaxJumpShare * static_cast<double>(jumps) && usual > 0 &&
            across < kUsual * usual && prediction_error(unwrap(x, period)) < kMuchBetter * prediction_error(x);
 }
 

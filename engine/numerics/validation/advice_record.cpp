@@ -18,7 +18,7 @@ constexpr double kFineSampling = 40;       // samples per turn of the fastest po
 constexpr double kStraight = 1e-3;         // of the input's standard deviation: largest error of linear interpolation
 constexpr double kSearchTolerance = 1e-4;  // relative, of parameters
 constexpr double kSlowCycles = 20;         // over the window, below which a movement counts as slow
-constexpr double kHardlyWorse = 1.05;
+constexpr double kSlightlyWorse = 1.05;
 
 /// Where to begin: the first stretch with half of the usual movement.
 Index lively_start(const VectorView& u, Index length) {
@@ -63,19 +63,19 @@ Index first_change(const VectorView& u) {
 }
 
 bool is_straight_between(const VectorView& u, Index step) {
-    const double most = kStraight * standard_deviation(u);
+    const double max_deviation = kStraight * standard_deviation(u);
     for (Index k = 0; k + step < u.size(); ++k) {
         const Index before = k - k % step;
         const double part = static_cast<double>(k - before) / static_cast<double>(step);
         if (before + step >= u.size()) break;
-        if (std::abs(u[k] - (1 - part) * u[before] - part * u[before + step]) > most) return false;
+        if (std::abs(u[k] - (1 - part) * u[before] - part * u[before + step]) > max_deviation) return false;
     }
     return true;
 }
 
-IdData every(const IdData& data, Index first, Index step, Hold hold, Index longest = kMaxSearchSamples) {
+IdData every(const IdData& data, Index first, Index step, Hold hold, Index max_samples = kMaxSearchSamples) {
     const Experiment& whole = data.experiments.front();
-    const Index count = std::min(longest, (data.sample_count() - first + step - 1) / step);
+    const Index count = std::min(max_samples, (data.sample_count() - first + step - 1) / step);
     const auto rows = Eigen::seqN(first, count, step);
     IdData thin = data;
     thin.Ts = data.Ts * static_cast<double>(step);
@@ -209,9 +209,9 @@ SearchWindow search_window(const IdData& data) {
     if (N <= kShortSamples) return {data, 0, 1};
     const VectorView u = data.experiments.front().u.col(0);
     const Index first = lively_start(u, kMaxSearchSamples);
-    const Index most = std::max<Index>(1, (N - first) / kMaxSearchSamples);
+    const Index max_step = std::max<Index>(1, (N - first) / kMaxSearchSamples);
     const double turn = samples_per_turn(data.range(first + 1, first + kMaxSearchSamples));
-    const Index requested = std::min(most, static_cast<Index>(turn / kFineSampling));
+    const Index requested = std::min(max_step, static_cast<Index>(turn / kFineSampling));
     const Index held = held_samples(u);
     const auto ahead = [&](Index step) { return first + (first_change(u) % step + step - first % step) % step; };
     for (Index step = requested; step > 1 && data.hold == Hold::kZoh && held > 1; --step)
@@ -264,7 +264,7 @@ std::optional<FittedData> fitted_data(const IdData& data, const std::function<bo
     fit.movement_error = relative_error(fast, fit.model());
     if (!second) return fit;
     const double error = relative_error(fast, second->candidate.estimate.models.front());
-    if (!(error < kHardlyWorse * fit.movement_error)) return fit;
+    if (!(error < kSlightlyWorse * fit.movement_error)) return fit;
     constexpr double kSenseless = -50;  // per cent of fit
     const double before = fit.simulation.fit_percent;
     std::swap(fit.search, *second);

@@ -11,7 +11,7 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr int kMaxArxStructures = 2000;
-constexpr double kHardlyLarger = 1.01;  // of a loss: not worth parameters
+constexpr double kNegligibleIncrease = 1.01;  // of a loss: not worth parameters
 
 /// As a script writes it: a number, or {from, to}.
 std::string range_text(std::pair<int, int> range) {
@@ -83,7 +83,7 @@ std::optional<Message> simpler_arx(const ArxSelection& selection, std::size_t ch
     const ArxCandidate *taken = &selection.candidates[chosen], *simplest = taken;
     for (const ArxCandidate& one : selection.candidates)
         if (one.determined && one.parameters() < simplest->parameters() &&
-            one.comparison_loss() <= kHardlyLarger * taken->comparison_loss())
+            one.comparison_loss() <= kNegligibleIncrease * taken->comparison_loss())
             simplest = &one;
     if (simplest == taken) return std::nullopt;
     return plural(simplest->parameters(), "With {} parameter instead of {}, {} has a loss that is at most 1 % larger.",

@@ -14,7 +14,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kMostCausalSamples = 4000;
+constexpr Index kMaxCausalSamples = 4000;
 constexpr Index kPastInputs = 10, kLaterInputs = 20;
 constexpr double kCausalLevel = 1e-6;
 constexpr double kExplainsHalf = 50, kExplainsMost = 85;  // per cent of fit
@@ -46,7 +46,7 @@ bool may_be_exchanged(const IdData& turned, double forward) {
 /// input, whose last samples predict the next ones, has no later part with which the error could be correlated.
 bool follows_later_inputs(const FittedData& fit, Index first = 1) {
     const IdData& window = fit.window.data;
-    const Index count = std::min(window.sample_count(), kMostCausalSamples);
+    const Index count = std::min(window.sample_count(), kMaxCausalSamples);
     if (count < 6 * (kPastInputs + kLaterInputs)) return false;
     const VectorView u = window.experiments.front().u.col(0);
     const Vector error = fit.error(Eigen::seqN(fit.window.first, count, fit.window.step));

@@ -18,7 +18,7 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr std::size_t kSearchedApart = 4;  // delays from one that is searched without passes as well to the next
-constexpr int kMostSweeps = 10, kProfileIterations = 50;
+constexpr int kMaxSweeps = 10, kProfileIterations = 50;
 constexpr double kProfileTolerance = 1e-4, kLower = 1e-4;  // relative, of parameters and of the loss
 
 struct ProfilePoint {
@@ -46,7 +46,7 @@ class DelayProfile {
     }
 
     void sweep() {
-        for (sweep_ = 1; sweep_ <= kMostSweeps; ++sweep_) {
+        for (sweep_ = 1; sweep_ <= kMaxSweeps; ++sweep_) {
             bool lower = false;
             for (std::size_t i = 0; i + 1 < points_.size(); ++i) lower |= try_neighbor(i + 1, points_[i]);
             for (std::size_t i = points_.size(); i-- > 1;) lower |= try_neighbor(i - 1, points_[i]);

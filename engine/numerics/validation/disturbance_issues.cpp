@@ -72,12 +72,12 @@ void keep_isolated(RepairedSignal& repaired, const Vector& x) {
 
 /// Of an error of y; nothing where they are too many or too small to matter.
 std::optional<RepairedSignal> isolated_outliers(const Vector& error, double deviation) {
-    constexpr double kMostShare = 0.05;  // of the samples
+    constexpr double kMaxShare = 0.05;  // of the samples
     if (!error.allFinite()) return std::nullopt;
     RepairedSignal repaired = replace_outliers(error);
     keep_isolated(repaired, error);
     const auto count = static_cast<double>(repaired.replaced.size());
-    if (count == 0 || count > kMostShare * static_cast<double>(error.size())) return std::nullopt;
+    if (count == 0 || count > kMaxShare * static_cast<double>(error.size())) return std::nullopt;
     if (!((error - repaired.signal).cwiseAbs().maxCoeff() > kMinError * deviation)) return std::nullopt;
     return repaired;
 }

@@ -24,7 +24,7 @@ constexpr double kBeyond = 1.5;           // times the input's frequency, above 
 constexpr double kBandPass = 0.1;         // steady gain over peak
 constexpr double kOffset = 0.1;           // of the output's standard deviation
 constexpr double kOffsetAtRest = 0.02;    // of the output's standard deviation
-constexpr Index kFewestAtRest = 20;       // samples
+constexpr Index kMinSamplesAtRest = 20;   // samples
 constexpr double kVisibleStart = 0.05;    // of the output's standard deviation
 constexpr double kAboveError = 2;         // standard deviations of the error
 constexpr double kOverOthers = 3;         // times what a fit finds of such a motion elsewhere
@@ -78,7 +78,7 @@ Index samples_at_rest(const VectorView& u) {
 /// uncertainty of single samples.
 std::optional<double> level_at_rest(const FittedData& fit) {
     const Index count = samples_at_rest(fit.u());
-    if (count < kFewestAtRest) return std::nullopt;
+    if (count < kMinSamplesAtRest) return std::nullopt;
     const Vector y = fit.y().head(count);
     const double level = y.mean(), noise = standard_deviation(y);
     const bool flat = std::abs(y.head(count / 2).mean() - y.tail(count / 2).mean()) <= noise;

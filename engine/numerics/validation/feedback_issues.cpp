@@ -16,7 +16,7 @@ namespace {
 constexpr Index kInputMemory = 10, kFeedbackLags = 10;
 constexpr double kRobust = 1.4826;  // standard deviation of normal numbers over their median distance
 constexpr double kCutError = 6, kCutInput = 2.5;
-constexpr Index kMostFeedbackSamples = 4000;
+constexpr Index kMaxFeedbackSamples = 4000;
 constexpr double kFeedbackLevel = 1e-5;
 constexpr double kOneSided = 3;  // times more correlation with later inputs than with earlier ones
 
@@ -125,7 +125,7 @@ Message remedy_for_feedback(const Experiment& experiment) {
 }  // namespace
 
 void find_feedback(const FittedData& fit, DataIssues& findings) {
-    const Index first = fit.window.first, count = std::min<Index>(fit.error.size() - first, kMostFeedbackSamples);
+    const Index first = fit.window.first, count = std::min<Index>(fit.error.size() - first, kMaxFeedbackSamples);
     if (count < 20 * kInputMemory) return;
     const Vector u = fit.u().segment(first, count);
     const bool predicts = !fit.model().stable() || fit.runs_away();

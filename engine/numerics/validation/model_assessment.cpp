@@ -42,18 +42,18 @@ ModelDoubts ModelDoubts::about(std::size_t i, const std::string& name) const {
     return own;
 }
 
-Message model_verdict(const ModelEvidence& model) {
+Message model_quality_message(const ModelEvidence& model) {
     const Number fit = significant(model.fit_percent, 3);
     if (model.unstable) {
-        const Message verdict = Message("The model is unstable. Do not use it, even if the residual tests pass.");
-        return model.doubts.remedy.empty() ? verdict : sentences({verdict, model.doubts.remedy});
+        const Message message = Message("The model is unstable. Do not use it, even if the residual tests pass.");
+        return model.doubts.remedy.empty() ? message : sentences({message, model.doubts.remedy});
     }
     if (model.tested && explains_little(model.fit_percent)) {
-        const Message verdict =
+        const Message message =
             Message("The model explains little of the output (fit {} %), even if the residual tests pass.", fit);
         const bool missing = !model.independent || !model.doubts.remedy.empty();
         return sentences(
-            {verdict,
+            {message,
              missing
                  ? missing_part(model)
                  : Message(

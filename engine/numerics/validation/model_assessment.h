@@ -35,6 +35,6 @@ struct ModelEvidence {
 /// that explains little (explains_little in fit/diagnosis.h), however white its errors. If a model explains less than
 /// half of the output and its errors are colored, the text does not call the dynamics described. A known cause is named
 /// instead of missing poles.
-Message model_verdict(const ModelEvidence& model);
+Message model_quality_message(const ModelEvidence& model);
 
 }  // namespace dynlab::inline numerics

@@ -6,9 +6,9 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kMinCount = 60;                // samples below which a model would say little
-constexpr Index kMostSamplesToJudge = 200000;  // that are checked individually
-constexpr double kSomething = 25;  // per cent of fit below which what the model leaves is no sign of a curve
+constexpr Index kMinCount = 60;               // samples below which a model would say little
+constexpr Index kMaxSamplesToCheck = 200000;  // that are checked individually
+constexpr double kSomething = 25;             // per cent of fit below which what the model leaves is no sign of a curve
 
 DataIssue too_short(Index samples) {
     return {"short",
@@ -47,9 +47,9 @@ ModelAdvice model_advice(const IdData& data, const std::function<bool()>& cancel
     const bool answered_backwards = find_exchange(*fit, cancel, findings);
     if (answered_backwards && !fit->runs_away()) return advice;
     if (!answered_backwards && find_late_input(*fit, findings)) return advice;  // its errors look like outliers
-    const bool judged_one_by_one = fit->error.size() <= kMostSamplesToJudge;
-    if (judged_one_by_one) find_error_outliers(*fit, cancel, findings);
-    advice.checks_outliers = fit->trusted() && judged_one_by_one;
+    const bool checks_each_sample = fit->error.size() <= kMaxSamplesToCheck;
+    if (checks_each_sample) find_error_outliers(*fit, cancel, findings);
+    advice.checks_outliers = fit->trusted() && checks_each_sample;
     if (!answered_backwards && find_load(*fit, findings)) return advice;
     if (find_runaway(*fit, findings)) {
         find_feedback(*fit, findings);

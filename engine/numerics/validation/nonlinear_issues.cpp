@@ -18,7 +18,7 @@ constexpr double kNonlinearLevel = 1e-6;
 constexpr double kNonlinearEffect = 0.02;  // of the output's standard deviation
 constexpr double kNonlinearShare = 0.05;   // of what linear terms leave of the error's power
 constexpr Index kLinearLags = 10;
-constexpr Index kLongestErrorMemory = 20;
+constexpr Index kMaxErrorMemory = 20;
 constexpr double kDependent = 1e-8;  // of its power that a column must keep beside the others
 
 enum class Curve { kInput, kOutput, kInputPlay, kOutputPlay, kGain };
@@ -174,7 +174,7 @@ Vector unexplained(const NonlinearRegression& regression) {
 CheckOutcome best_family(const NonlinearRegression& regression) {
     const Index rows = regression.columns.rows(), d = regression.columns.cols();
     const Autoregression memory =
-        fit_autoregression(unexplained(regression), {rows}, kLongestErrorMemory, AutoregressiveOrder::kBic);
+        fit_autoregression(unexplained(regression), {rows}, kMaxErrorMemory, AutoregressiveOrder::kBic);
     Matrix white(rows - memory.order(), d);
     for (Index i = 0; i < d; ++i) white.col(i) = filtered_past(memory, regression.columns.col(i));
     Elimination linear(white.transpose() * white);
@@ -293,23 +293,23 @@ DataIssue nonlinear_finding(const FittedData& fit, Curve kind, double effect) {
 }  // namespace
 
 bool gain_explains_error(const FittedData& fit) {
-    constexpr double kMostOfIt = 0.7;
+    constexpr double kMainShare = 0.7;
     const Vector& x = fit.simulation.output;
     const Vector t = Vector::LinSpaced(x.size(), -1, 1);
     Matrix columns(x.size(), 5);
     columns << Vector::Ones(x.size()), t, x, x.cwiseProduct(t), x.cwiseProduct(t.cwiseAbs2());
     if (!columns.allFinite() || !fit.error.allFinite()) return false;
     const double line = solve_least_squares(columns.leftCols(3), fit.error).residuals.squaredNorm();
-    return solve_least_squares(columns, fit.error).residuals.squaredNorm() < (1 - kMostOfIt) * line;
+    return solve_least_squares(columns, fit.error).residuals.squaredNorm() < (1 - kMainShare) * line;
 }
 
 void find_nonlinearity(const FittedData& fit, DataIssues& findings) {
     const NonlinearRegression regression = nonlinear_regression(fit);
     if (!regression.columns.allFinite()) return;
-    const CheckOutcome verdict = best_family(regression);
-    if (verdict.family == nullptr || !(verdict.share > kNonlinearShare)) return;
-    const double effect = effect_of(regression, *verdict.family) / fit.deviation();
-    if (effect > kNonlinearEffect) findings.push_back(nonlinear_finding(fit, verdict.family->kind, effect));
+    const CheckOutcome outcome = best_family(regression);
+    if (outcome.family == nullptr || !(outcome.share > kNonlinearShare)) return;
+    const double effect = effect_of(regression, *outcome.family) / fit.deviation();
+    if (effect > kNonlinearEffect) findings.push_back(nonlinear_finding(fit, outcome.family->kind, effect));
 }
 
 }  // namespace dynlab::inline numerics

@@ -33,9 +33,9 @@ Signals centered_column(const std::vector<Matrix>& signals, Index column) {
 }
 
 Index longest(const Signals& signals) {
-    Index most = 0;
-    for (const Vector& x : signals) most = std::max(most, x.size());
-    return most;
+    Index max_samples = 0;
+    for (const Vector& x : signals) max_samples = std::max(max_samples, x.size());
+    return max_samples;
 }
 
 // R_e at lags -reach..reach, and g(h) = sum_k R_e(k) R_u(k + h), h = 0..lags.
@@ -98,7 +98,7 @@ Index strongest_lag(const IndependenceTest& test) {
     return lag;
 }
 
-Message independence_verdict(const IndependenceTest& test, const IdData& data) {
+Message independence_message(const IndependenceTest& test, const IdData& data) {
     const std::string& name = data.input_names[static_cast<std::size_t>(test.input)];
     const auto probability = probability_text(test.p_value);
     if (!test.independent)
@@ -169,7 +169,7 @@ IndependenceTest test_independence(const Signals& e, double variance, const Test
     test.p_value_future = quadratic_form(r.head(lags).reverse(), ahead, N, experiment_count).p_value;
     test.independent = test.p_value >= 1 - options.confidence;
     test.without_feedback = test.p_value_future >= 1 - options.confidence;
-    test.verdict = independence_verdict(test, data);
+    test.verdict = independence_message(test, data);
     return test;
 }
 
@@ -216,13 +216,13 @@ OutputResiduals test_output(const std::vector<Matrix>& errors, const IdData& dat
         return result;
     }
     result.whiteness = whiteness_of_covariances(e, R, options.confidence, kind);
-    std::vector<Message> verdicts{Message("{}: {}", name, result.whiteness.verdict)};
+    std::vector<Message> messages{Message("{}: {}", name, result.whiteness.verdict)};
     for (Index j = 0; j < data.input_count(); ++j) {
         const TestedInput& tested = inputs[static_cast<std::size_t>(j)];
         result.inputs.push_back(test_independence(e, R[0], tested, data, j, result.whiteness.white, options));
-        verdicts.push_back(result.inputs.back().verdict);
+        messages.push_back(result.inputs.back().verdict);
     }
-    result.verdict = sentences(std::move(verdicts));
+    result.verdict = sentences(std::move(messages));
     return result;
 }
 
@@ -246,12 +246,12 @@ std::vector<Matrix> output_errors(const IdData& data, std::vector<Matrix> simula
 ResidualTests tests_of(const IdData& data, std::vector<Matrix> errors, ErrorKind kind, const ResidualOptions& options) {
     ResidualTests tests;
     tests.residuals = std::move(errors);
-    Index most = 0;
-    for (const Matrix& own : tests.residuals) most = std::max(most, own.rows());
-    if (most < 2 * options.lags)
+    Index max_samples = 0;
+    for (const Matrix& own : tests.residuals) max_samples = std::max(max_samples, own.rows());
+    if (max_samples < 2 * options.lags)
         throw InvalidArgument(
             "Tests over {} need at least {} samples in one experiment, but the longest has {}: use fewer lags",
-            plural(options.lags, "{} lag", "{} lags"), 2 * options.lags, most);
+            plural(options.lags, "{} lag", "{} lags"), 2 * options.lags, max_samples);
     for (Index i = 0; i < data.output_count(); ++i) {
         tests.outputs.push_back(test_output(tests.residuals, data, i, kind, options));
     }
@@ -264,14 +264,15 @@ void conclude(ResidualTests& tests, const Standing& standing) {
     MessageList lines{{}, Join::kLines};
     for (std::size_t i = 0; i < tests.outputs.size(); ++i) {
         OutputResiduals& output = tests.outputs[i];
-        if (!output.exact) output.verdict = sentences({output.verdict, model_verdict(standing(i))});
+        if (!output.exact) output.verdict = sentences({output.verdict, model_quality_message(standing(i))});
         lines.items.push_back(output.verdict);
     }
     tests.verdict = lines.items.size() == 1 ? lines.items.front() : Message("{}", lines);
 }
 
 // Whether the error goes with this input at an instant that the channel leaves out, before its delay ends or at once.
-void judge_instants(ModelEvidence& model, const IndependenceTest& test, const TransferFunction& G, const IdData& data) {
+void check_input_instants(ModelEvidence& model, const IndependenceTest& test, const TransferFunction& G,
+                          const IdData& data) {
     if (test.independent || !data.regular() || !G.continuous()) return;
     const Index lag = strongest_lag(test);
     if (G.delay() > (static_cast<double>(lag) + 0.5) * data.Ts)
@@ -333,7 +334,7 @@ ResidualTests residual_tests(const IdData& data, const std::vector<TransferFunct
         for (std::size_t j = 0; j < output.inputs.size(); ++j) {
             const TransferFunction& G = channels[i * output.inputs.size() + j];
             model.unstable = model.unstable || has_unstable_pole(G);
-            judge_instants(model, output.inputs[j], G, data);
+            check_input_instants(model, output.inputs[j], G, data);
         }
         if (model.tested && !(model.independent && model.white))
             model.start = better_start(data, channels, simulation, i, output.fit_percent);

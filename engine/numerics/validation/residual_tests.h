@@ -32,7 +32,7 @@ struct OutputResiduals {
     WhitenessTest whiteness;
     std::vector<IndependenceTest> inputs;
     double fit_percent = 0;  ///< of the simulation
-    Message verdict;         ///< what the tests say, and in the end the model_verdict()
+    Message verdict;         ///< what the tests say, and in the end the model_quality_message()
 };
 
 struct ResidualTests {

@@ -15,7 +15,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kShortestRun = 5;        // samples at a limit that are no chance
+constexpr Index kMinRunLength = 5;       // samples at a limit that are no chance
 constexpr Index kReach = 4;              // samples before a run over which its slope is taken
 constexpr double kSharp = 10;            // steps of the converter that a signal rises before it is cut off
 constexpr double kClippedExcess = 0.05;  // of the range, what the signal would have gone beyond its limit
@@ -125,7 +125,7 @@ std::vector<Segment> saturated_runs(const Vector& x, const Quantization& grid) {
             const double slope = rise_before(x, first, kReach) / static_cast<double>(kReach);
             const double excess = slope * static_cast<double>(std::min<Index>(length, 40));
             const bool sharp = grid.step == 0 || rise_before(x, first, std::min(length, first)) > kSharp * grid.step;
-            if (length >= kShortestRun && excess > kClippedExcess * range && slope > 0.6 * grid.step && sharp)
+            if (length >= kMinRunLength && excess > kClippedExcess * range && slope > 0.6 * grid.step && sharp)
                 runs.push_back({first + 1, last});
             first = std::max(last, first + 1);
         }
@@ -251,12 +251,12 @@ void find_degrees(const Channel& channel, std::vector<DataIssue>& findings) {
 }
 
 /// First lag at which the autocorrelation has fallen to one half.
-Index half_correlation(const Vector& x, Index most) {
-    for (Index reach = std::min<Index>(64, most);; reach = std::min(8 * reach, most)) {
+Index half_correlation(const Vector& x, Index max_lag) {
+    for (Index reach = std::min<Index>(64, max_lag);; reach = std::min(8 * reach, max_lag)) {
         const Vector r = lagged_products(x, x, reach).tail(reach + 1);
         for (Index lag = 1; lag <= reach; ++lag)
             if (r[lag] < 0.5 * r[0]) return lag;
-        if (reach == most) return most;
+        if (reach == max_lag) return max_lag;
     }
 }
 

@@ -33,9 +33,9 @@ SimulationSpread simulation_spread(const ModelsOfParameters& models, const Vecto
                                    const MatrixView& u, double Ts, Hold hold, Index runs, RandomStream& random) {
     const Index d = theta.size();
     if (runs < 2) throw InvalidArgument("A spread needs at least 2 runs, but {} were requested", runs);
-    constexpr Index kMostValues = 50'000'000;
+    constexpr Index kMaxSimulatedValues = 50'000'000;
     const Index N = u.rows();
-    if (N > kMostValues / runs)
+    if (N > kMaxSimulatedValues / runs)
         throw InvalidArgument("A spread of {} runs of {} samples is too large: use a shorter input or fewer runs", runs,
                               N);
     if (covariance.rows() != d || covariance.cols() != d || !covariance.allFinite())

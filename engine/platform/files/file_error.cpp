@@ -9,7 +9,7 @@
 namespace dynlab::inline platform {
 namespace {
 
-constexpr std::uintmax_t kSmallestRoom = 64 << 10;  // bytes; a disk with less is full
+constexpr std::uintmax_t kMinFreeSpace = 64 << 10;  // bytes; a disk with less is full
 
 /// What was tried, as the library says it between its own name and the reason: "cannot copy file".
 std::string attempt_of(const std::filesystem::filesystem_error& error) {
@@ -25,7 +25,7 @@ int reason_of(const std::filesystem::filesystem_error& error) {
     if (reason != EIO || error.path2().empty()) return reason;
     std::error_code unknown;
     const auto space = std::filesystem::space(error.path2().parent_path(), unknown);
-    return !unknown && space.available < kSmallestRoom ? ENOSPC : reason;
+    return !unknown && space.available < kMinFreeSpace ? ENOSPC : reason;
 }
 
 }  // namespace

@@ -51,11 +51,11 @@ std::vector<std::string> plain_words(std::string_view utf8) {
     return words;
 }
 
-std::string printable(std::string_view utf8, std::size_t most) {
+std::string printable(std::string_view utf8, std::size_t max_characters) {
     std::string result;
     std::size_t count = 0;
     while (!utf8.empty()) {
-        if (count++ == most) return result + "…";
+        if (count++ == max_characters) return result + "…";
         const std::string_view before = utf8;
         const char32_t c = next_character(utf8);
         result += is_terminal_control(c) ? "?" : std::string(before.substr(0, before.size() - utf8.size()));

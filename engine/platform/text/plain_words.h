@@ -13,7 +13,8 @@ std::string folded(std::string_view utf8);
 /// parts ("l'entrée" -> "l", "entree").
 std::vector<std::string> plain_words(std::string_view utf8);
 
-/// The text with control characters and broken UTF-8 as '?', and with at most `most` characters: fit for a terminal.
-std::string printable(std::string_view utf8, std::size_t most = 200);
+/// The text with control characters and broken UTF-8 as '?', and with at most `max_characters` characters: fit for a
+/// terminal.
+std::string printable(std::string_view utf8, std::size_t max_characters = 200);
 
 }  // namespace dynlab::inline platform

@@ -51,12 +51,12 @@ inline constexpr std::array kIterationOptions = {
     option<&FitOptions::max_iterations>("MaxIter",
                                         about("maximum number of iterations. By default, a search that has not "
                                               "converged after 50 iterations continues for up to 500 more iterations"),
-                                        {.least = 0, .member = "max_iterations"}),
+                                        {.minimum = 0, .member = "max_iterations"}),
     kTolerance};
 /// Of methods that end there in any case.
 inline constexpr std::array kLimitOptions = {
     option<&FitOptions::max_iterations>("MaxIter", about("maximum number of iterations"),
-                                        {.least = 0, .member = "max_iterations"}),
+                                        {.minimum = 0, .member = "max_iterations"}),
     kTolerance};
 
 inline constexpr std::array kIntegrationOptions = {option<&FitOptions::integration>(

@@ -9,9 +9,9 @@
 namespace dynlab::inline scripting {
 namespace {
 
-void need_values(Index count, Index least) {
+void need_values(Index count, Index minimum) {
     if (count == 0) throw InvalidArgument("{} has no elements", argument_label(1, "v"));
-    if (count < least)
+    if (count < minimum)
         throw InvalidArgument(
             "the standard deviation of a single value is undefined; at least two values are required");
 }

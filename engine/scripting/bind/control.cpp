@@ -15,7 +15,7 @@ constexpr OptionEntry kCraneOptions[] = {
     option<&CraneRun::duration>("duration", about("duration of the run"), {.unit = "s"}),
     option<&CraneRun::position>("position", about("initial position of the trolley, from -0.5 to 0.5"), {.unit = "m"}),
     option<&CraneRun::angle>("angle", about("initial angle of the load"), {.unit = "rad"}),
-    {"seed", ValueKind::kCount, about("seed of the sensor noise"), {.initial = "1", .most = kMaxSeed}}};
+    {"seed", ValueKind::kCount, about("seed of the sensor noise"), {.initial = "1", .maximum = kMaxSeed}}};
 constexpr OptionTable kCraneTables[] = {kCraneOptions};
 
 constexpr ArgumentEntry kStateMatrix = {"A", ValueKind::kAny, about("n x n matrix")};

@@ -164,7 +164,7 @@ void add_units_and_headers(const Call& call, const LoadedData& loaded) {
 }
 
 /// What a call of load looked for in vain: where one of these files comes, or is repaired, the script reads it.
-void note_files_sought(const Call& call, const std::string& name) {
+void note_candidate_files(const Call& call, const std::string& name) {
     const std::filesystem::path file = call.context().options.script_folder / name;
     Recorder& recorder = call.context().recorder;
     recorder.note_file_read(file);
@@ -183,7 +183,7 @@ int load(Call& call) {
         try {
             return load_data(name, run.script_folder, run.graded, import);
         } catch (...) {
-            note_files_sought(call, name);
+            note_candidate_files(call, name);
             throw;
         }
     }();
@@ -229,15 +229,15 @@ void check_names(const IdData& data) {
 }
 
 /// Once in a run: time constants come out in samples where seconds are meant.
-void tell_sampling_time(const Call& call) {
-    if (std::exchange(call.context().told_sampling_time, true)) return;
+void report_default_sampling_time(const Call& call) {
+    if (std::exchange(call.context().sampling_time_reported, true)) return;
     call.print(
         localized(call, Message("iddata: no sampling time was given, so dynlab uses 1 s; write iddata(y, u, Ts)")) +
         "\n");
 }
 
 /// A sampling time that is not that of the columns.
-void tell_other_clock(const Call& call, const IdData& data) {
+void report_different_clock(const Call& call, const IdData& data) {
     const auto unit = seconds_of(data.time_unit, true);
     for (const int argument : {1, 2}) {
         const ColumnOrigin origin = column_origin(call.state(), argument);
@@ -255,8 +255,8 @@ void tell_other_clock(const Call& call, const IdData& data) {
 }
 
 /// Once in a run: models do not know the unit of their data's time.
-void tell_time_unit(const Call& call, const std::string& unit) {
-    if (unit == "s" || std::exchange(call.context().told_time_unit, true)) return;
+void report_time_unit(const Call& call, const std::string& unit) {
+    if (unit == "s" || std::exchange(call.context().time_unit_reported, true)) return;
     call.print(localized(call, Message("iddata: these data, and models estimated from them, have the time unit {}. If "
                                        "a message or an axis label shows s, the unit is {}",
                                        unit, unit)) +
@@ -295,16 +295,16 @@ int make_iddata(Call& call) {
     const bool has_instants = options.has("SamplingInstants");
     IdData data =
         has_instants ? IdData(y, u, options.vector("SamplingInstants")) : IdData(y, u, call.number_or(3, "Ts", 1));
-    if (!has_instants && !call.given(3)) tell_sampling_time(call);
+    if (!has_instants && !call.given(3)) report_default_sampling_time(call);
     if (has_instants) make_regular(data);
     options.read(data);
-    if (!has_instants && call.given(3)) tell_other_clock(call, data);
+    if (!has_instants && call.given(3)) report_different_clock(call, data);
     set_texts(options, "InputName", data.input_names, u.cols());
     set_texts(options, "OutputName", data.output_names, y.cols());
     set_units(options, "InputUnit", 2, data.input_units, u.cols());
     set_units(options, "OutputUnit", 1, data.output_units, y.cols());
     check_names(data);
-    tell_time_unit(call, data.time_unit);
+    report_time_unit(call, data.time_unit);
     if (options.has("Tstart") && options.has("SamplingInstants"))
         throw InvalidArgument(
             "option 'Tstart' cannot be combined with 'SamplingInstants', which include the first instant");

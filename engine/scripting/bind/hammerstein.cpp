@@ -17,7 +17,7 @@ constexpr std::array kRestStates = {"none", "steady", "auto"};  // of InitialSta
 constexpr std::array kCharacteristicOptions = {
     option<&HammersteinOptions::bins>("Bins",
                                       about("number of equally spaced bins between the smallest and the largest input"),
-                                      {.least = 1, .most = 1000, .member = "bins"}),
+                                      {.minimum = 1, .maximum = 1000, .member = "bins"}),
     option<&HammersteinOptions::breakpoints>(
         "Breakpoints", about("bin edges, such as the ends of a dead band, instead of equally spaced bins"),
         {.member = "breakpoints"}),

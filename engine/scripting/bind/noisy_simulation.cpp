@@ -19,7 +19,7 @@ namespace {
 constexpr OptionEntry kNoiseSeed = {"seed",
                                     ValueKind::kCount,
                                     about("seed of a separate random stream; by default, the random stream of `randn`"),
-                                    {.most = kMaxSeed}},
+                                    {.maximum = kMaxSeed}},
                       kHoldOfData = {"hold", ValueKind::kChoice, kHoldOption.description, {.choices = kHolds}};
 constexpr OptionEntry kNoiseOptions[] = {
     {"noise", ValueKind::kFlag,
@@ -31,7 +31,7 @@ constexpr OptionEntry kNoiseOptions[] = {
     kNoiseSeed,
     kHoldOfData};
 constexpr OptionEntry kSpreadOptions[] = {
-    {"runs", ValueKind::kCount, about("number of random models"), {.initial = "200", .least = 2}},
+    {"runs", ValueKind::kCount, about("number of random models"), {.initial = "200", .minimum = 2}},
     kNoiseSeed,
     kHoldOfData,
     kConfidenceOption};

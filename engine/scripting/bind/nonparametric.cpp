@@ -53,8 +53,9 @@ constexpr std::array kImpulseestOptions = {
     kReadingConfidence, kLabelsOption};
 constexpr std::array kCraOptions = {
     option<&CraOptions::lags>("lags", about("number of lags; 0 for the smaller of 70 and N/5 for N samples")),
-    option<&CraOptions::whitening>(
-        "whitening", about("order of the autoregressive filter; 0 for an input that is already white"), {.most = 100}),
+    option<&CraOptions::whitening>("whitening",
+                                   about("order of the autoregressive filter; 0 for an input that is already white"),
+                                   {.maximum = 100}),
     kReadingConfidence, kLabelsOption};
 constexpr OptionTable kEtfeTables[] = {kEtfeOptions}, kSpaTables[] = {kSpaOptions},
                       kImpulseestTables[] = {kImpulseestOptions}, kCraTables[] = {kCraOptions};

@@ -11,12 +11,12 @@ namespace dynlab::inline scripting {
 namespace {
 
 constexpr double kMaxPlantSeed = 0xFFFFFFFF;
-constexpr std::array kRigSeedOptions = {option<&PlantChoice::seed>(
-    "seed", about("seed of the noise and of random inputs"), {.least = 0, .most = kMaxPlantSeed})};
-constexpr std::array kPlantVariantOptions = {
-    option<&PlantChoice::specimen>("specimen", about("number of the unit; 0 is the unit that `SOURCE.md` documents"),
-                                   {.least = 0, .most = kMaxPlantSeed})};
-constexpr OptionTable kPlantTables[] = {kRigSeedOptions, kPlantVariantOptions},
+constexpr std::array kPlantSeedOptions = {option<&PlantChoice::seed>(
+    "seed", about("seed of the noise and of random inputs"), {.minimum = 0, .maximum = kMaxPlantSeed})};
+constexpr std::array kPlantVariantOptions = {option<&PlantChoice::variant_number>(
+    "specimen", about("number of the unit; 0 is the unit that `SOURCE.md` documents"),
+    {.minimum = 0, .maximum = kMaxPlantSeed})};
+constexpr OptionTable kPlantTables[] = {kPlantSeedOptions, kPlantVariantOptions},
                       kTrueModelTables[] = {kPlantVariantOptions};
 
 constexpr std::array kPlantArguments = {
@@ -90,31 +90,31 @@ int plant(Call& call) {
 
 /// In graded runs, the true model is that of a variant without any data set: an answer may be compared with theory, and
 /// a theoretical value cannot be submitted as an answer.
-int rig_truth(Call& call) {
-    constexpr std::uint32_t kOfNobody = 0x8000'0000;
+int true_model(Call& call) {
+    constexpr std::uint32_t kUnassignedVariant = 0x8000'0000;
     call.at_most(2);
     PlantChoice choice;
     Options(call, 2, kTrueModelTables).read(choice);
     const Plant& plant = plant_of(call);
     const bool graded = call.context().options.graded;
-    give_values(call, plant.truth(graded ? choice.specimen | kOfNobody : choice.specimen),
+    give_values(call, plant.truth(graded ? choice.variant_number | kUnassignedVariant : choice.variant_number),
                 "the truth of " + plant.name);
     return 1;
 }
 
-constexpr FunctionEntry kRigsFunctions[] = {
+constexpr FunctionEntry kPlantFunctions[] = {
     {"rig", "data", "rig(name, {options}) -> table; rig() -> table",
      "Repeat a simulated experiment of the course; another seed changes the noise", guarded<memoized_call<plant>>,
      kPlantTables, kPlantArguments},
     {"rig_truth", "data", "rig_truth(name, {options}) -> table",
-     "Return the theoretical values of a simulated experiment of the course", guarded<rig_truth>, kTrueModelTables,
+     "Return the theoretical values of a simulated experiment of the course", guarded<true_model>, kTrueModelTables,
      kPlantArguments},
 };
 
 }  // namespace
 
 FunctionEntries plant_functions() {
-    return kRigsFunctions;
+    return kPlantFunctions;
 }
 
 }  // namespace dynlab::inline scripting

@@ -26,7 +26,7 @@ constexpr OptionEntry kFilterStart = {
 constexpr OptionEntry kButterworthOptions[] = {
     option<&FilterOptions::order>(
         "order", about("order of the low-pass prototype; a band with two edges has twice as many poles"),
-        {.least = 1, .most = 20}),
+        {.minimum = 1, .maximum = 20}),
     option<&FilterOptions::zero_phase>(
         "zero_phase",
         about("true filters forward and then backward, which avoids a phase shift and squares the magnitude response")),
@@ -128,10 +128,10 @@ int fill_gaps(Call& call) {
     call.at_most(2);
     const Options options(call, 2, kGapsTables);
     const Vector t = options.has("t") ? Vector(options.vector("t")) : Vector();
-    const auto longest = options.has("longest") ? std::optional(options.size("longest", 0)) : std::nullopt;
+    const auto max_gap = options.has("longest") ? std::optional(options.size("longest", 0)) : std::nullopt;
     const auto method =
         options.has("method") ? static_cast<FillMethod>(options.choice(kFillMethod)) : FillMethod::kLinear;
-    return give_repaired(call, fill_missing(call.vector(1, "x"), t, longest, method));
+    return give_repaired(call, fill_missing(call.vector(1, "x"), t, max_gap, method));
 }
 
 int remove_outliers(Call& call) {

@@ -51,7 +51,7 @@ constexpr std::array kDescentOptions = {
     option<&GradientDescentOptions::step_size>("step", about("step size; by default 1/lambda_max of Phi'Phi/N")),
     option<&GradientDescentOptions::max_iterations>("MaxIter", about("maximum number of iterations")),
     option<&GradientDescentOptions::tolerance>("Tol", about("relative change of theta at which the search stops"),
-                                               {.least = 0}),
+                                               {.minimum = 0}),
     option<&GradientDescentOptions::start>("start", about("initial theta; by default, zero"))};
 constexpr OptionTable kLsqTables[] = {kLsqOptions}, kPolyfitTables[] = {kPolyfitOptions},
                       kRegressionPlotTables[] = {kRegressionPlotOptions}, kDescentTables[] = {kDescentOptions};

@@ -43,7 +43,7 @@ constexpr std::array kSliderArguments = {
     ArgumentEntry{"x", ValueKind::kNumber, about("number that the script uses until the reader selects another")},
     ArgumentEntry{"from", ValueKind::kNumber, about("smallest number; positive if `log` is true")},
     ArgumentEntry{"to", ValueKind::kNumber, about("largest number")}};
-constexpr std::array kGuessArguments = {
+constexpr std::array kPredictionArguments = {
     ArgumentEntry{"name", ValueKind::kText, about("name of the prediction, for `outcome`; use each name only once")},
     ArgumentEntry{"value", ValueKind::kNumber, about("your prediction, or nil if you have none yet")},
     ArgumentEntry{"unit", ValueKind::kText, about("unit after the numbers")}};
@@ -204,11 +204,11 @@ int slider(Call& call) {
     return counts ? call.give_integer(static_cast<std::int64_t>(slider.value)) : call.give(slider.value);
 }
 
-constexpr const char* kGuesses = "dynlab guesses";  // in Lua's registry: a table for each name
+constexpr const char* kPredictions = "dynlab guesses";  // in Lua's registry: a table for each name
 
 /// Pushes the table of all predictions.
-void push_guesses(lua_State* L) {
-    luaL_getsubtable(L, LUA_REGISTRYINDEX, kGuesses);
+void push_predictions(lua_State* L) {
+    luaL_getsubtable(L, LUA_REGISTRYINDEX, kPredictions);
 }
 
 Message with_unit(double value, const std::string& unit) {
@@ -233,7 +233,7 @@ int guess(Call& call) {
     lua_State* const L = call.state();
     const std::string name = call.text(1, "name");
     const std::string unit = call.given(3) ? call.text(3, "unit") : "";
-    push_guesses(L);
+    push_predictions(L);
     if (lua_getfield(L, -1, name.c_str()) != LUA_TNIL)
         throw InvalidArgument(
             "the prediction \"{}\" already exists; enter each prediction only once, before you see the result", name);
@@ -256,7 +256,7 @@ int outcome(Call& call) {
     lua_State* const L = call.state();
     const std::string name = call.text(1, "name");
     const double found = call.number(2, Message("result"));
-    push_guesses(L);
+    push_predictions(L);
     if (lua_getfield(L, -1, name.c_str()) != LUA_TTABLE)
         throw InvalidArgument("no prediction is named \"{}\"; write guess(\"{}\", 1) above", name, name);
     lua_getfield(L, -1, "unit");
@@ -288,7 +288,7 @@ constexpr FunctionEntry kReportFunctions[] = {
     {"slider", "report", "slider(name, x, from, to, {options}) -> x",
      "Create a number that the reader of a page can change", guarded<slider>, kSliderTables, kSliderArguments},
     {"guess", "report", "guess(name, value, unit)", "Store your prediction before you see the result", guarded<guess>,
-     kNoOptions, kGuessArguments},
+     kNoOptions, kPredictionArguments},
     {"outcome", "report", "outcome(name, value)", "Print a prediction next to the result", guarded<outcome>, kNoOptions,
      kOutcomeArguments},
 };

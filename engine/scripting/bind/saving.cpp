@@ -24,12 +24,12 @@ constexpr std::array kSaveCsvOptions = {
     OptionEntry{"digits",
                 ValueKind::kCount,
                 about("number of significant digits; 17 digits represent each number exactly"),
-                {.initial = "7", .least = 1, .most = 17}}};
+                {.initial = "7", .minimum = 1, .maximum = 17}}};
 constexpr std::array kSaveMatOptions = {
     OptionEntry{"digits",
                 ValueKind::kCount,
                 about("number of significant digits to round to; 17 for no rounding"),
-                {.initial = "17", .least = 1, .most = 17}}};
+                {.initial = "17", .minimum = 1, .maximum = 17}}};
 constexpr OptionTable kSaveCsvTables[] = {kSaveCsvOptions}, kSaveMatTables[] = {kSaveMatOptions};
 
 constexpr std::array kSaveCsvArguments = {

@@ -28,7 +28,7 @@ constexpr std::array kMultisineOptions = {
                                                  "has no input and shows odd distortion; 0 for no groups")),
     option<&RandomPhaseOptions::amplitude>("amplitude", about("root mean square of the signal")),
     option<&RandomPhaseOptions::low_crest>("low_crest", about("true selects phases with a low crest factor")),
-    OptionEntry{"periods", ValueKind::kCount, about("number of periods"), {.initial = "1", .least = 1}},
+    OptionEntry{"periods", ValueKind::kCount, about("number of periods"), {.initial = "1", .minimum = 1}},
     OptionEntry{"seed", ValueKind::kCount, about("seed of the phases; by default, the random stream of `rng`")}};
 constexpr OptionTable kSineTables[] = {kSineOptions}, kChirpTables[] = {kChirpOptions},
                       kMultisineTables[] = {kMultisineOptions};
@@ -80,21 +80,21 @@ int make_rbs(Call& call) {
     call.at_most(3);
     const auto [low, high] = levels(call, 3, -1, 1);
     const Index hold = call.given(2) ? call.size(2, "p") : 1;
-    need_room_for_signal(call.state(), static_cast<double>(call.size(1, "N")));
+    require_memory_for_signal(call.state(), static_cast<double>(call.size(1, "N")));
     return call.give_vector(rbs(call.size(1, "N"), static_cast<int>(hold), call.context().random, low, high));
 }
 
 int make_step(Call& call) {
     call.at_most(3);
     const auto [low, high] = levels(call, 3, 0, 1);
-    need_room_for_signal(call.state(), static_cast<double>(call.size(1, "N")));
+    require_memory_for_signal(call.state(), static_cast<double>(call.size(1, "N")));
     return call.give_vector(step_signal(call.size(1, "N"), call.given(2) ? call.size(2, "first") : 1, low, high));
 }
 
 int make_sine(Call& call) {
     call.at_most(4);
     const Options options(call, 4, kSineTables);
-    need_room_for_signal(call.state(), call.number(2, "T") / call.number(3, "Ts"));
+    require_memory_for_signal(call.state(), call.number(2, "T") / call.number(3, "Ts"));
     return call.give_vector(sine(call.number(1, "frequency"), call.number(2, "T"), call.number(3, "Ts"),
                                  options.number("amplitude", 1), options.number("phase", 0)));
 }
@@ -104,7 +104,7 @@ int make_chirp(Call& call) {
     const Options options(call, 5, kChirpTables);
     const auto shape =
         options.has("shape") ? static_cast<ChirpShape>(options.choice(kChirpOptions[0])) : ChirpShape::kSine;
-    need_room_for_signal(call.state(), call.number(3, "T") / call.number(4, "Ts"));
+    require_memory_for_signal(call.state(), call.number(3, "T") / call.number(4, "Ts"));
     return call.give_vector(
         chirp(call.number(1, "f0"), call.number(2, "f1"), call.number(3, "T"), call.number(4, "Ts"), shape));
 }
@@ -116,7 +116,7 @@ int make_random_phases(Call& call) {
     RandomPhaseOptions requested;
     options.read(requested);
     const Index period = call.size(1, "N"), periods = options.size("periods", 1);
-    need_room_for_signal(call.state(), static_cast<double>(period) * static_cast<double>(periods));
+    require_memory_for_signal(call.state(), static_cast<double>(period) * static_cast<double>(periods));
     RandomStream own(static_cast<std::uint32_t>(options.whole("seed", 1)));
     const RandomPhaseMultisine signal =
         random_phase_multisine(period, requested, options.has("seed") ? own : call.context().random);
@@ -129,7 +129,7 @@ int make_random_phases(Call& call) {
 int make_multisine(Call& call) {
     if (call.type(1) == LUA_TNUMBER && !(call.type(2) == LUA_TNUMBER)) return make_random_phases(call);
     call.at_most(3);
-    need_room_for_signal(call.state(), call.number(2, "T") / call.number(3, "Ts"));
+    require_memory_for_signal(call.state(), call.number(2, "T") / call.number(3, "Ts"));
     return call.give_vector(multisine(call.vector(1, "frequencies"), call.number(2, "T"), call.number(3, "Ts")));
 }
 

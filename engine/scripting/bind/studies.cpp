@@ -28,16 +28,16 @@ constexpr OptionEntry kStudyOptions[] = {
     {"ComputingDelay", ValueKind::kCount, about("delay of the controller in samples"), {.initial = "0"}},
     {"Ts", ValueKind::kNumber, about("sampling time"), {.unit = "s"}},
     option<&MonteCarloStudy::hold>("hold", kHoldOption.description, {.initial = "\"zoh\"", .choices = kHolds}),
-    option<&MonteCarloStudy::sigma>("sigma", about("standard deviation of the noise"), {.least = 0}),
+    option<&MonteCarloStudy::sigma>("sigma", about("standard deviation of the noise"), {.minimum = 0}),
     option<&MonteCarloStudy::snr>("snr",
                                   about("signal-to-noise ratio 20 log10(std(x)/std(noise)), where x is the output "
                                         "without noise; instead of `sigma`"),
                                   {.unit = "dB"}),
-    option<&MonteCarloStudy::runs>("runs", about("number of repeated experiments"), {.least = 2}),
+    option<&MonteCarloStudy::runs>("runs", about("number of repeated experiments"), {.minimum = 2}),
     option<&MonteCarloStudy::seed>(
         "seed",
         about("seed of the noise: run k = 0, 1, ... adds the numbers that `randn` returns after `rng(seed + k)`"),
-        {.most = kMaxSeed}),
+        {.maximum = kMaxSeed}),
     option<&MonteCarloStudy::threads>("threads", about("number of threads; 0 for all cores")),
     {"estimators", ValueKind::kTable, about("table of named estimators, each with its arguments after the data")}};
 constexpr OptionTable kStudyTables[] = {kStudyOptions};

@@ -77,7 +77,7 @@ int make_matrix(Call& call) {
 }
 
 /// Pushes n values, or an n x m matrix when a second size other than 1 is given; returns the room for them.
-Eigen::Map<Vector> room(Call& call, int first) {
+Eigen::Map<Vector> new_block(Call& call, int first) {
     const Index rows = call.size(first, "n"), columns = call.given(first + 1) ? call.size(first + 1, "m") : 1;
     NumericBlock& block = columns == 1 ? push_vector(call.state(), rows) : push_matrix(call.state(), rows, columns);
     return block.vector();
@@ -86,7 +86,7 @@ Eigen::Map<Vector> room(Call& call, int first) {
 template <int kValue>
 int constant(Call& call) {
     call.at_most(2);
-    room(call, 1).setConstant(kValue);
+    new_block(call, 1).setConstant(kValue);
     return 1;
 }
 int eye(Call& call) {

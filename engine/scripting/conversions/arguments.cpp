@@ -278,14 +278,14 @@ void Options::check_names(const std::vector<std::string>& known) const {
 }
 
 void Options::check_bounds(const OptionEntry& option) const {
-    const double least = option.facts.least, most = option.facts.most;
-    if ((std::isinf(least) && std::isinf(most)) || !has(option.name)) return;
+    const double minimum = option.facts.minimum, maximum = option.facts.maximum;
+    if ((std::isinf(minimum) && std::isinf(maximum)) || !has(option.name)) return;
     const double value = number(option.name, 0);
-    if (value >= least && value <= most) return;
+    if (value >= minimum && value <= maximum) return;
     const Message label = option_label(option.name);
-    const Number given = significant(value, 10), lowest = significant(least, 10), highest = significant(most, 10);
-    if (std::isinf(most)) throw InvalidArgument("{} must be at least {}, but {} was given", label, lowest, given);
-    if (std::isinf(least)) throw InvalidArgument("{} must be at most {}, but {} was given", label, highest, given);
+    const Number given = significant(value, 10), lowest = significant(minimum, 10), highest = significant(maximum, 10);
+    if (std::isinf(maximum)) throw InvalidArgument("{} must be at least {}, but {} was given", label, lowest, given);
+    if (std::isinf(minimum)) throw InvalidArgument("{} must be at most {}, but {} was given", label, highest, given);
     throw InvalidArgument("{} must be between {} and {}, but {} was given", label, lowest, highest, given);
 }
 

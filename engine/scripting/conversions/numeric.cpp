@@ -114,7 +114,7 @@ NumericBlock& push_vector(lua_State* L, Index size) {
     return block;
 }
 
-void need_room_for_signal(lua_State* L, double count) {
+void require_memory_for_signal(lua_State* L, double count) {
     constexpr double kAtOnce = 3;
     if (count >= 1)  // else the calculation says what is wrong with it
         need_memory(L, kAtOnce * sizeof(double) * count,

@@ -44,7 +44,7 @@ MaskBlock& push_mask(lua_State* L, Index size);
 
 /// Before a signal of `count` values is calculated outside: throws InvalidArgument when the memory limit cannot hold
 /// it, with the two others that are there meanwhile.
-void need_room_for_signal(lua_State* L, double count);
+void require_memory_for_signal(lua_State* L, double count);
 
 /// The block at a stack index, nullptr when something else is there.
 NumericBlock* to_vector(lua_State* L, int index);

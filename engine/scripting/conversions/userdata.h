@@ -50,7 +50,7 @@ struct UserdataObject<T> {
 };
 
 template <class T>
-int destroy_box(lua_State* L) {
+int destroy_userdata(lua_State* L) {
     auto* userdata = static_cast<UserdataObject<T>*>(lua_touserdata(L, 1));
     context_of(L).memory.remove_outside(userdata->outside_bytes);
     userdata->~UserdataObject<T>();
@@ -63,7 +63,7 @@ void push_userdata_metatable(lua_State* L) {
     lua_pushliteral(L, "__gc");
     if (lua_rawget(L, -2) == LUA_TNIL) {
         lua_pushliteral(L, "__gc");
-        lua_pushcfunction(L, destroy_box<T>);
+        lua_pushcfunction(L, destroy_userdata<T>);
         lua_rawset(L, -4);
     }
     lua_pop(L, 1);

@@ -29,12 +29,13 @@ class CallCache {
   public:
     using Duration = std::chrono::steady_clock::duration;
     /// Far more than it takes to read a result back.
-    static constexpr Duration kShortest = std::chrono::milliseconds(10);
+    static constexpr Duration kMinDuration = std::chrono::milliseconds(10);
 
-    /// Calls that take less than `shortest` are not kept. `cache` must outlive it.
-    explicit CallCache(const Cache& cache, Duration shortest = kShortest) : cache_(cache), shortest_(shortest) {}
+    /// Calls that take less than `min_duration` are not kept. `cache` must outlive it.
+    explicit CallCache(const Cache& cache, Duration min_duration = kMinDuration)
+        : cache_(cache), min_duration_(min_duration) {}
 
-    bool worth_keeping(Duration taken) const { return taken >= shortest_; }
+    bool worth_keeping(Duration taken) const { return taken >= min_duration_; }
 
     bool lasting() const { return cache_.lasting(); }
     /// Whether a call of this shape took long once and was kept.
@@ -54,7 +55,7 @@ class CallCache {
 
   private:
     const Cache& cache_;
-    Duration shortest_;
+    Duration min_duration_;
     CacheUse use_;
 };
 

@@ -83,12 +83,12 @@ ReportFields basic_fields(const Fit& fit) {
 
 /// From which state the fit was simulated, and the offset of each output (experiment by experiment) in it.
 Message simulation_of(const Fit& fit) {
-    constexpr Index kMostShown = 6;
+    constexpr Index kMaxShown = 6;
     if (!fit.removed.empty() || fit.start.offset) {
         MessageList offsets;
         for (const double offset : fit.offsets.transpose().reshaped())
             offsets.items.push_back(Message("{}", significant(offset, 4)));
-        const bool few = fit.offsets.size() <= kMostShown;
+        const bool few = fit.offsets.size() <= kMaxShown;
         if (!fit.removed.empty())
             return few ? Message("The operating point was removed from the data; the offset of the output is {}.",
                                  offsets)

@@ -28,7 +28,7 @@ class StudyText {
     std::string header_of(const MonteCarloResult& result, int who_width) const;
     std::string block_of(const MonteCarloResult& result, int who_width) const;
     std::string bias_of(const MonteCarloResult& result) const;
-    std::string troubles_of(const MonteCarloResult& result, int runs) const;
+    std::string failures_of(const MonteCarloResult& result, int runs) const;
     std::string candidate_row(const OrderCandidate& candidate, bool chosen, bool validated, bool delays,
                               std::size_t note) const;
 
@@ -73,7 +73,7 @@ std::string StudyText::bias_of(const MonteCarloResult& result) const {
            "\n";
 }
 
-std::string StudyText::troubles_of(const MonteCarloResult& result, int runs) const {
+std::string StudyText::failures_of(const MonteCarloResult& result, int runs) const {
     std::string lines;
     if (result.failed > 0)
         lines += text(Message("{}: {} of {} runs failed and are excluded; the first error: {}.", result.label,
@@ -127,7 +127,7 @@ std::string StudyText::of(const MonteCarlo& study) const {
         lines += block_of(result, static_cast<int>(who_width));
         before = &result;
     }
-    for (const MonteCarloResult& result : study.results) lines += bias_of(result) + troubles_of(result, study.runs);
+    for (const MonteCarloResult& result : study.results) lines += bias_of(result) + failures_of(result, study.runs);
     return lines;
 }
 

@@ -11,7 +11,7 @@ namespace dynlab::inline scripting {
 namespace {
 
 constexpr std::size_t kMaxChainLength = 6, kMaxArgumentLength = 40;
-constexpr int kMostArguments = 6, kMaxLevels = 100;
+constexpr int kMaxArguments = 6, kMaxLevels = 100;
 
 /// The first line of a value's text, cut where it is long.
 std::string short_value_text(lua_State* L, int index) {
@@ -31,7 +31,7 @@ Message call_words(lua_State* L, lua_Debug& frame) {
     lua_getinfo(L, "nSu", &frame);
     if (std::string_view(frame.what) == "main") return Message("ran {}", frame.short_src);
     std::vector<std::string> arguments;
-    const int count = std::min<int>(frame.nparams, kMostArguments);
+    const int count = std::min<int>(frame.nparams, kMaxArguments);
     for (int i = 1; i <= count; ++i) {
         const char* name = lua_getlocal(L, &frame, i);
         if (name == nullptr) break;

@@ -56,8 +56,8 @@ struct RuntimeContext {
     lua_Debug main_chunk{};  ///< activation of the running main chunk
     bool main_chunk_known = false;
     bool running = false;
-    bool told_sampling_time = false;         ///< that iddata took 1 s
-    bool told_time_unit = false;             ///< that models say s where data count in another unit
+    bool sampling_time_reported = false;     ///< that iddata took 1 s
+    bool time_unit_reported = false;         ///< that models say s where data count in another unit
     StopReason stop = StopReason::kNone;     ///< once set, every protected call passes the stop on
     std::shared_ptr<TimeBudget> budget;      ///< of the script, where it has limits
     std::string* printed_by_call = nullptr;  ///< also gets what is printed, while a call is watched

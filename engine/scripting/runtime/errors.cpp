@@ -185,11 +185,11 @@ Message syntax_sentence(const std::string& text, const std::string& near) {
         return Message("'{}' is a constant and cannot change", *name);
     if (auto line = between(text, "break outside loop at line ", ""))
         return Message("the break of line {} is outside a loop", line->substr(0, line->find(' ')));
-    if (auto most = between(text, "too many local variables (limit is ", ")"))
+    if (auto max_locals = between(text, "too many local variables (limit is ", ")"))
         return Message(
             "a function can have at most {} local variables; declare further variables without 'local', or put them in "
             "a table",
-            *most);
+            *max_locals);
     if (text.find("unfinished string") != std::string::npos) return Message("unterminated string");
     if (near == "<eof>") return Message("the script ends in the middle of a statement");
     if (starts_with(text, "<eof> expected") && near != "end")

@@ -206,11 +206,11 @@ std::string text_of(const MessageId<>& description) {
 
 /// "number from 0 to 1"
 std::string with_bounds(const char* kind, const OptionFacts& facts) {
-    const bool least = std::isfinite(facts.least), most = std::isfinite(facts.most);
+    const bool minimum = std::isfinite(facts.minimum), maximum = std::isfinite(facts.maximum);
     std::string text = kind;
-    if (least && most) return text + fmt::format(" from {} to {}", facts.least, facts.most);
-    if (least) text += fmt::format(", at least {}", facts.least);
-    if (most) text += fmt::format(", at most {}", facts.most);
+    if (minimum && maximum) return text + fmt::format(" from {} to {}", facts.minimum, facts.maximum);
+    if (minimum) text += fmt::format(", at least {}", facts.minimum);
+    if (maximum) text += fmt::format(", at most {}", facts.maximum);
     return text;
 }
 

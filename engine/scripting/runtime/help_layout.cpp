@@ -228,9 +228,9 @@ class PageReader {
 }  // namespace
 
 std::string filled(std::string_view text, std::size_t width, std::size_t indent) {
-    const std::size_t most = width > indent ? width - indent : 1;
+    const std::size_t max_width = width > indent ? width - indent : 1;
     std::string result;
-    for (const std::string& line : lines_filled(text, most))
+    for (const std::string& line : lines_filled(text, max_width))
         result += (result.empty() ? "" : '\n' + std::string(indent, ' ')) + line;
     return result;
 }

@@ -36,7 +36,7 @@ constexpr MessageId<> about(MessageId<> description) {
 struct OptionFacts {
     const char* initial = "";  ///< the default as scripts write it; that of the member, where it is empty
     const char* unit = "";
-    double least = -std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::infinity();
+    double minimum = -std::numeric_limits<double>::infinity(), maximum = std::numeric_limits<double>::infinity();
     std::span<const char* const> choices = {};  ///< of a text, or of an enumeration in its order
     const char* former = "";                    ///< another word for the first choice, which older scripts use
     const char* member = "";                    ///< numerics' name in its messages (OptionName), "max_iterations"

@@ -10,7 +10,7 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr int kMostCalls = 1000;
+constexpr int kMaxCalls = 1000;
 
 /// Called alone for what they do, or print what they give.
 constexpr const char* kForTheirEffect[] = {"advice", "require", "slider"};
@@ -147,7 +147,7 @@ std::string with_shown_calls(const std::string& source, const ShownCalls& shown)
     const std::vector<LuaToken> tokens = lua_tokens(source);
     std::string code = source;
     int calls = 0;
-    for (std::size_t first = tokens.size(); first-- > 0 && calls < kMostCalls;) {
+    for (std::size_t first = tokens.size(); first-- > 0 && calls < kMaxCalls;) {
         const std::vector<std::string>* const names_of_values = shown.find(tokens[first].text);
         const bool method = is_value_method(tokens, first), library = method || of_lua_library(tokens, first);
         if ((names_of_values == nullptr && !library) || !begins_statement(source, tokens, first)) continue;

@@ -12,7 +12,7 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr int kMostExpressions = 1000;
+constexpr int kMaxExpressions = 1000;
 constexpr int kMaxLineCount = 40;  // of one expression
 
 /// Where Lua stops reading: the token, as an index into the tokens (their number at the end of the source).
@@ -87,7 +87,7 @@ std::string with_shown_values(const std::string& source) {
     LuaReader reader;
     std::string code = source;
     std::size_t reached = 0;
-    for (int i = 0; i < kMostExpressions; ++i) {
+    for (int i = 0; i < kMaxExpressions; ++i) {
         const std::optional<std::string> error = reader.error_of(code);
         if (!error) return code;
         const std::vector<LuaToken> tokens = lua_tokens(code);
@@ -132,7 +132,7 @@ std::optional<int> line_with_semicolon_rows(const std::string& source) {
 
 namespace {
 
-constexpr int kMostLooks = 200;  // each may go through the whole source
+constexpr int kMaxLookups = 200;  // each may go through the whole source
 
 std::optional<int> line_with_compared_place(const std::string& source) {
     const std::vector<LuaToken> tokens = lua_tokens(source);
@@ -155,7 +155,7 @@ std::optional<int> line_with_compared_place(const std::string& source) {
         if (given || (extreme(i + 1) && (tokens[i].is("function") || tokens[i].is("local")))) return std::nullopt;
     }
     int looks = 0;
-    for (std::size_t i = 0; i + 3 < tokens.size() && looks < kMostLooks; ++i) {
+    for (std::size_t i = 0; i + 3 < tokens.size() && looks < kMaxLookups; ++i) {
         if (!tokens[i].is("math") || !tokens[i + 1].is(".") || !extreme(i + 2) || !tokens[i + 3].is("(")) continue;
         ++looks;
         const std::size_t end = closing(i + 3).first;

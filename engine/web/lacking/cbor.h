@@ -35,54 +35,54 @@ namespace cbor_heads {
 enum Major { kNatural, kNegative, kBytes, kText, kList, kMap, kTag, kOther };
 
 /// The shortest head of this kind with this number.
-inline std::size_t write(Major major, std::uint64_t value, unsigned char* to, std::size_t room) {
+inline std::size_t write(Major major, std::uint64_t value, unsigned char* to, std::size_t capacity) {
     const int extra = value < 24 ? 0 : value <= 0xFF ? 1 : value <= 0xFFFF ? 2 : value <= 0xFFFFFFFF ? 4 : 8;
-    if (room < std::size_t(1 + extra)) return 0;
+    if (capacity < std::size_t(1 + extra)) return 0;
     to[0] = static_cast<unsigned char>(major << 5 | (extra == 0 ? value : 23 + std::bit_width(unsigned(extra))));
     for (int i = 0; i < extra; ++i) to[1 + i] = static_cast<unsigned char>(value >> (8 * (extra - 1 - i)));
     return std::size_t(1 + extra);
 }
 }  // namespace cbor_heads
 
-inline std::size_t cbor_encode_uint(std::uint64_t value, unsigned char* to, std::size_t room) {
-    return cbor_heads::write(cbor_heads::kNatural, value, to, room);
+inline std::size_t cbor_encode_uint(std::uint64_t value, unsigned char* to, std::size_t capacity) {
+    return cbor_heads::write(cbor_heads::kNatural, value, to, capacity);
 }
-inline std::size_t cbor_encode_negint(std::uint64_t value, unsigned char* to, std::size_t room) {
-    return cbor_heads::write(cbor_heads::kNegative, value, to, room);
+inline std::size_t cbor_encode_negint(std::uint64_t value, unsigned char* to, std::size_t capacity) {
+    return cbor_heads::write(cbor_heads::kNegative, value, to, capacity);
 }
-inline std::size_t cbor_encode_bytestring_start(std::size_t size, unsigned char* to, std::size_t room) {
-    return cbor_heads::write(cbor_heads::kBytes, size, to, room);
+inline std::size_t cbor_encode_bytestring_start(std::size_t size, unsigned char* to, std::size_t capacity) {
+    return cbor_heads::write(cbor_heads::kBytes, size, to, capacity);
 }
-inline std::size_t cbor_encode_string_start(std::size_t size, unsigned char* to, std::size_t room) {
-    return cbor_heads::write(cbor_heads::kText, size, to, room);
+inline std::size_t cbor_encode_string_start(std::size_t size, unsigned char* to, std::size_t capacity) {
+    return cbor_heads::write(cbor_heads::kText, size, to, capacity);
 }
-inline std::size_t cbor_encode_array_start(std::size_t size, unsigned char* to, std::size_t room) {
-    return cbor_heads::write(cbor_heads::kList, size, to, room);
+inline std::size_t cbor_encode_array_start(std::size_t size, unsigned char* to, std::size_t capacity) {
+    return cbor_heads::write(cbor_heads::kList, size, to, capacity);
 }
-inline std::size_t cbor_encode_map_start(std::size_t size, unsigned char* to, std::size_t room) {
-    return cbor_heads::write(cbor_heads::kMap, size, to, room);
+inline std::size_t cbor_encode_map_start(std::size_t size, unsigned char* to, std::size_t capacity) {
+    return cbor_heads::write(cbor_heads::kMap, size, to, capacity);
 }
-inline std::size_t cbor_encode_tag(std::uint64_t value, unsigned char* to, std::size_t room) {
-    return cbor_heads::write(cbor_heads::kTag, value, to, room);
+inline std::size_t cbor_encode_tag(std::uint64_t value, unsigned char* to, std::size_t capacity) {
+    return cbor_heads::write(cbor_heads::kTag, value, to, capacity);
 }
-inline std::size_t cbor_one_byte(unsigned char byte, unsigned char* to, std::size_t room) {
-    if (room > 0) to[0] = byte;
-    return room > 0 ? 1 : 0;
+inline std::size_t cbor_one_byte(unsigned char byte, unsigned char* to, std::size_t capacity) {
+    if (capacity > 0) to[0] = byte;
+    return capacity > 0 ? 1 : 0;
 }
-inline std::size_t cbor_encode_null(unsigned char* to, std::size_t room) {
-    return cbor_one_byte(0xF6, to, room);
+inline std::size_t cbor_encode_null(unsigned char* to, std::size_t capacity) {
+    return cbor_one_byte(0xF6, to, capacity);
 }
-inline std::size_t cbor_encode_bool(bool value, unsigned char* to, std::size_t room) {
-    return cbor_one_byte(value ? 0xF5 : 0xF4, to, room);
+inline std::size_t cbor_encode_bool(bool value, unsigned char* to, std::size_t capacity) {
+    return cbor_one_byte(value ? 0xF5 : 0xF4, to, capacity);
 }
-inline std::size_t cbor_encode_indef_map_start(unsigned char* to, std::size_t room) {
-    return cbor_one_byte(0xBF, to, room);
+inline std::size_t cbor_encode_indef_map_start(unsigned char* to, std::size_t capacity) {
+    return cbor_one_byte(0xBF, to, capacity);
 }
-inline std::size_t cbor_encode_break(unsigned char* to, std::size_t room) {
-    return cbor_one_byte(0xFF, to, room);
+inline std::size_t cbor_encode_break(unsigned char* to, std::size_t capacity) {
+    return cbor_one_byte(0xFF, to, capacity);
 }
-inline std::size_t cbor_encode_double(double value, unsigned char* to, std::size_t room) {
-    if (room < 9) return 0;
+inline std::size_t cbor_encode_double(double value, unsigned char* to, std::size_t capacity) {
+    if (capacity < 9) return 0;
     const auto bits = std::bit_cast<std::uint64_t>(value);
     to[0] = 0xFB;
     for (int i = 0; i < 8; ++i) to[1 + i] = static_cast<unsigned char>(bits >> (56 - 8 * i));

@@ -15,8 +15,8 @@ EM_JS(int, dynlab_character_is, (int character, const char* pattern), {
     return known.get(source).test(String.fromCodePoint(character)) ? 1 : 0;
 });
 
-EM_JS(void, dynlab_compatible_form, (int character, char* to, int room),
-      { stringToUTF8(String.fromCodePoint(character).normalize("NFKD").toLowerCase(), to, room); });
+EM_JS(void, dynlab_compatible_form, (int character, char* to, int capacity),
+      { stringToUTF8(String.fromCodePoint(character).normalize("NFKD").toLowerCase(), to, capacity); });
 
 namespace dynlab::inline platform {
 namespace {

@@ -39,9 +39,9 @@ bool only_of(const std::string& text, const char* letters) {
     return !text.empty() && text.find_first_not_of(letters) == std::string::npos;
 }
 
-int number_up_to(int most, const std::string& text) {
+int number_up_to(int limit, const std::string& text) {
     const auto number = read_number<int>(text);
-    return number && *number >= 1 && *number <= most ? *number : 0;
+    return number && *number >= 1 && *number <= limit ? *number : 0;
 }
 
 Machines slurm_in(const std::string& list) {

@@ -17,12 +17,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kFiles = 256, kMostOfAFile = 4096;
+constexpr std::size_t kFiles = 256, kMaxStudyFileBytes = 4096;
 
 /// Pieces in one file: few enough that there are files for many parts. It depends on their number alone, so that
 /// machines that split the work find each other's files.
 std::size_t pieces_of_a_file(std::size_t pieces) {
-    return std::clamp<std::size_t>((pieces + kFiles - 1) / kFiles, 1, kMostOfAFile);
+    return std::clamp<std::size_t>((pieces + kFiles - 1) / kFiles, 1, kMaxStudyFileBytes);
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ std::string subject_of_code(std::string code) {
 }
 
 /// Whether the element at `open` only makes letters look otherwise: words on both sides of any other are two.
-bool stands_in_a_line(const std::string& html, std::size_t open) {
+bool is_inline(const std::string& html, std::size_t open) {
     static const std::set<std::string> kInLines = {"span", "em", "strong", "code", "a",    "sub",  "sup",  "mi",
                                                    "mo",   "mn", "mrow",   "msub", "msup", "math", "mtext"};
     const std::size_t name = open + (html[open + 1] == '/' ? 2 : 1);
@@ -127,7 +127,7 @@ std::string text_in_html(const std::string& html) {
             if (html.compare(open + 1, std::string_view(unseen).size(), unseen) == 0)
                 close = html.find('>', html.find(fmt::format("</{}", unseen), open));
         if (close == std::string::npos) break;
-        if (!stands_in_a_line(html, open)) text += ' ';
+        if (!is_inline(html, open)) text += ' ';
         at = close + 1;
     }
     for (const auto& [entity, letter] : {std::pair{"&lt;", "<"}, {"&gt;", ">"}, {"&quot;", "\""}, {"&amp;", "&"}})

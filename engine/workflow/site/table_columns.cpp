@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kWide = 72;     // characters of a line from which on Pandoc shares the width
 constexpr double kWidth = 90;         // characters of a whole line on the page
 constexpr double kMin = 4;            // of a column
-constexpr double kMostOfAnother = 4;  // times
+constexpr double kMaxWidthRatio = 4;  // times
 
 /// The cells of a line "| a | b |"; bars in code and behind a backslash belong to the cell.
 std::vector<std::string> cells_of(const std::string& line) {
@@ -61,8 +61,8 @@ std::vector<double> widths_for(const std::vector<double>& lengths) {
     if (open.empty()) return widths;
     double longest = 0, sum = 0;
     for (const std::size_t i : open) longest = std::max(longest, lengths[i]);
-    for (const std::size_t i : open) sum += std::max(lengths[i], longest / kMostOfAnother);
-    for (const std::size_t i : open) widths[i] = left * std::max(lengths[i], longest / kMostOfAnother) / sum;
+    for (const std::size_t i : open) sum += std::max(lengths[i], longest / kMaxWidthRatio);
+    for (const std::size_t i : open) widths[i] = left * std::max(lengths[i], longest / kMaxWidthRatio) / sum;
     return widths;
 }
 

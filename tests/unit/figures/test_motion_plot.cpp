@@ -17,14 +17,14 @@ using testing::HasSubstr;
 /// 4 cm x 2 cm: a rail, a trolley that is drawn 1 cm from the left at 0.2 m and slides 5 cm a meter, and on it a rod
 /// that hangs down from (1, 1.5) over 1 cm at 0 rad.
 PlantDrawing crane() {
-    PlantDrawing rig;
-    rig.width = 4, rig.height = 2;
-    rig.parts = {{"position", "m", -1, false, 5, 0, 1, 0.2}, {"angle", "rad", 0, true, 1, 1.5, 1, 0}};
-    rig.pieces = {{{0, 4}, {1.5, 1.5}, {-1, -1}, false, 0.5},
-                  {{0, 1}, {1.2, 1.2}, {-1, 0}, false, 0.5},
-                  {{1, 1}, {1.5, 0.5}, {1, 1}, false, 1.1},
-                  {{0.9, 1.1, 1}, {0.5, 0.5, 0.4}, {1, 1, 1}, true, 0.35}};
-    return rig;
+    PlantDrawing plant;
+    plant.width = 4, plant.height = 2;
+    plant.parts = {{"position", "m", -1, false, 5, 0, 1, 0.2}, {"angle", "rad", 0, true, 1, 1.5, 1, 0}};
+    plant.pieces = {{{0, 4}, {1.5, 1.5}, {-1, -1}, false, 0.5},
+                    {{0, 1}, {1.2, 1.2}, {-1, 0}, false, 0.5},
+                    {{1, 1}, {1.5, 0.5}, {1, 1}, false, 1.1},
+                    {{0.9, 1.1, 1}, {0.5, 0.5, 0.4}, {1, 1, 1}, true, 0.35}};
+    return plant;
 }
 
 MotionData simulated_data(Index count, double step) {
@@ -43,21 +43,21 @@ MotionAppearance at(const Vector& instants) {
 }
 
 TEST(motion_plot, parts_slide_turn_and_are_carried) {
-    const PlantDrawing rig = crane();
-    const PlantShape rest = rig.placed(rig.pieces[2], Vector{{0.2, 0}});
-    EXPECT_EQ(rest.x, rig.pieces[2].x);
-    EXPECT_EQ(rest.y, rig.pieces[2].y);
+    const PlantDrawing plant = crane();
+    const PlantShape rest = plant.placed(plant.pieces[2], Vector{{0.2, 0}});
+    EXPECT_EQ(rest.x, plant.pieces[2].x);
+    EXPECT_EQ(rest.y, plant.pieces[2].y);
     // 0.1 m to the right is 0.5 cm; a quarter turn to the left brings the rod's end from below to the right
-    const PlantShape moved = rig.placed(rig.pieces[2], Vector{{0.3, std::numbers::pi / 2}});
+    const PlantShape moved = plant.placed(plant.pieces[2], Vector{{0.3, std::numbers::pi / 2}});
     EXPECT_NEAR(moved.x[0], 1.5, 1e-12);
     EXPECT_NEAR(moved.y[0], 1.5, 1e-12);
     EXPECT_NEAR(moved.x[1], 2.5, 1e-12);
     EXPECT_NEAR(moved.y[1], 1.5, 1e-12);
-    const PlantShape rope = rig.placed(rig.pieces[1], Vector{{0, 1}});  // one end stays
+    const PlantShape rope = plant.placed(plant.pieces[1], Vector{{0, 1}});  // one end stays
     EXPECT_NEAR(rope.x[0], 0, 1e-15);
     EXPECT_NEAR(rope.x[1], 0, 1e-15);
-    EXPECT_TRUE(rig.pieces[1].moves());
-    EXPECT_FALSE(rig.pieces[0].moves());
+    EXPECT_TRUE(plant.pieces[1].moves());
+    EXPECT_FALSE(plant.pieces[0].moves());
 }
 
 TEST(motion_plot, shows_pictures_where_their_instants_lie) {
@@ -117,9 +117,9 @@ TEST(motion_plot, one_side_alone_will_do) {
     EXPECT_TRUE(figure.motion->simulated);
 }
 
-std::string refusal(const PlantDrawing& rig, const MotionData& made, const MotionAppearance& look = {}) {
+std::string refusal(const PlantDrawing& plant, const MotionData& made, const MotionAppearance& look = {}) {
     try {
-        motion_plot(rig, made, look);
+        motion_plot(plant, made, look);
     } catch (const InvalidArgument& error) {
         return error.what();
     }

@@ -27,10 +27,10 @@ void expect_readable(const Panel& panel) {
             EXPECT_GE(x.ticks.size(), 2u) << width << " cm from " << x.low << " to " << x.high;
             EXPECT_GE(y.ticks.size(), 2u) << height << " cm from " << y.low << " to " << y.high;
             for (std::size_t i = 1; i < x.ticks.size(); ++i) {
-                const double room = (x.position(x.ticks[i].value) - x.position(x.ticks[i - 1].value)) * width;
+                const double spacing = (x.position(x.ticks[i].value) - x.position(x.ticks[i - 1].value)) * width;
                 const double expected = 0.5 * (text_width(x.ticks[i].label, style::kTickSize) +
                                                text_width(x.ticks[i - 1].label, style::kTickSize));
-                EXPECT_GT(room, expected) << x.ticks[i].label << " in " << width << " cm";
+                EXPECT_GT(spacing, expected) << x.ticks[i].label << " in " << width << " cm";
             }
         }
 }

@@ -32,10 +32,10 @@ const Curve* band_of(const Panel& panel) {
 }
 
 double largest_stem(const Panel& panel) {
-    double most = 0;
+    double largest = 0;
     for (const Curve& curve : panel.curves)
-        if (curve.style == CurveStyle::kStems) most = std::max(most, curve.y.cwiseAbs().maxCoeff());
-    return most;
+        if (curve.style == CurveStyle::kStems) largest = std::max(largest, curve.y.cwiseAbs().maxCoeff());
+    return largest;
 }
 
 TEST(validation_plots, step_band_is_the_response_and_its_standard_deviations) {  // oracle: step_response_std

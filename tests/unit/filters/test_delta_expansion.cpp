@@ -19,39 +19,40 @@ using LongVector = Eigen::Matrix<Long, Eigen::Dynamic, 1>;
 constexpr Long kPlaces[] = {0.3L, -0.7L, 1.1L, 2.5L};
 
 /// A full matrix whose eigenvalues lie near -0.1, -0.2, ...
-template <int room>
-StateMatrix<room> sample_matrix(int n) {
-    StateMatrix<room> E;
+template <int capacity>
+StateMatrix<capacity> sample_matrix(int n) {
+    StateMatrix<capacity> E;
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j) E(i, j) = i == j ? -0.1 * (i + 1) : 0.01 * (1 + ((3 * i + 5 * j) % 7));
     return E;
 }
 
-template <int room>
-LongMatrix long_matrix(const StateMatrix<room>& E, int n) {
+template <int capacity>
+LongMatrix long_matrix(const StateMatrix<capacity>& E, int n) {
     LongMatrix L(n, n);
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j) L(i, j) = E(i, j);
     return L;
 }
 
-template <int room>
-StateVector<room> sample_vector(int n) {
-    StateVector<room> b;
+template <int capacity>
+StateVector<capacity> sample_vector(int n) {
+    StateVector<capacity> b;
     for (int i = 0; i < n; ++i) b[i] = 1 - 0.3 * i;
     return b;
 }
 
 /// delta^n + alpha_(n-1) delta^(n-1) + ... + alpha_0
-template <int room>
-Long value_at(const StateVector<room>& alpha, int n, Long delta) {
+template <int capacity>
+Long value_at(const StateVector<capacity>& alpha, int n, Long delta) {
     Long value = 1;
     for (int i = n - 1; i >= 0; --i) value = value * delta + alpha[i];
     return value;
 }
 
-template <int room>
-void expect_resolvent(const StateExpansion<room>& found, const LongMatrix& E, const StateVector<room>& input, int n) {
+template <int capacity>
+void expect_resolvent(const StateExpansion<capacity>& found, const LongMatrix& E, const StateVector<capacity>& input,
+                      int n) {
     LongVector b(n);
     for (int i = 0; i < n; ++i) b[i] = input[i];
     for (const Long delta : kPlaces) {

@@ -70,7 +70,7 @@ TEST(decompositions, jacobi_svd_keeps_the_digits_of_small_singular_values) {
 
 // oracle: definition, of all least-squares solutions the one without a part in the null space
 TEST(decompositions, the_shortest_solution_has_no_part_in_the_null_space) {
-    const Matrix A = random_matrix(8, 6, 4), B = Matrix::Random(8, 2), X = shortest_solution(A, B);
+    const Matrix A = random_matrix(8, 6, 4), B = Matrix::Random(8, 2), X = minimum_norm_solution(A, B);
     EXPECT_LT(distance(A.transpose() * (A * X - B), Matrix::Zero(6, 2)), 1e-12);
     const Matrix null_space = full_orthogonal_basis(A.transpose()).rightCols(2);
     EXPECT_LT(distance(A * null_space, Matrix::Zero(8, 2)), 1e-12);

@@ -30,16 +30,16 @@ struct Expected {
     }
 };
 
-template <int room>
+template <int capacity>
 void expect_step(const Matrix& A, double h) {
     const int n = static_cast<int>(A.rows());
-    StateMatrix<room> small;
+    StateMatrix<capacity> small;
     for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i) small(i, j) = A(i, j);
     const auto step = short_step(small, n, h);
     ASSERT_TRUE(step);
     const Expected expected(A, h);
-    const auto expect = [&](const StateMatrix<room>& found, const LongMatrix& expected_value, const char* what) {
+    const auto expect = [&](const StateMatrix<capacity>& found, const LongMatrix& expected_value, const char* what) {
         for (int j = 0; j < n; ++j)
             for (int i = 0; i < n; ++i)
                 EXPECT_NEAR(found(i, j), static_cast<double>(expected_value(i, j)),

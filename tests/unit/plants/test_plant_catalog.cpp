@@ -98,11 +98,11 @@ TEST_P(plant_catalog, another_seed_changes_the_record_and_another_variant_the_tr
         return signal_of(experiments_of(plant, plant.simulated_data(choice)).front(), plant.signals.back().name);
     };
     const PlantChoice stored;
-    EXPECT_EQ(stored.specimen, 0u);
+    EXPECT_EQ(stored.variant_number, 0u);
     EXPECT_EQ(stored.seed, 1u);
-    EXPECT_EQ(simulated_data(stored), simulated_data({.specimen = 0, .seed = 1}));
-    EXPECT_NE(simulated_data(stored), simulated_data({.specimen = 0, .seed = 2}));
-    EXPECT_NE(simulated_data(stored), simulated_data({.specimen = 3, .seed = 1}));
+    EXPECT_EQ(simulated_data(stored), simulated_data({.variant_number = 0, .seed = 1}));
+    EXPECT_NE(simulated_data(stored), simulated_data({.variant_number = 0, .seed = 2}));
+    EXPECT_NE(simulated_data(stored), simulated_data({.variant_number = 3, .seed = 1}));
     EXPECT_EQ(names_of(plant.truth(0)), names_of(plant.truth(3)));
     const auto numbers = [](const PlantValues& values) {
         std::vector<double> all;

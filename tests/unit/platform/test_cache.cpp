@@ -244,8 +244,8 @@ TEST_F(cache, corrupt_bytes_are_no_hit_and_can_be_stored_again) {
     const std::string whole = read_file(file);
     std::string flipped = whole;
     flipped.back() ^= 1;
-    for (const std::string& spoilt : {whole.substr(0, whole.size() - 1), whole + "x", flipped, std::string()}) {
-        write_file_atomically(file, spoilt);
+    for (const std::string& corrupt : {whole.substr(0, whole.size() - 1), whole + "x", flipped, std::string()}) {
+        write_file_atomically(file, corrupt);
         EXPECT_FALSE(store.load_entry("test/a"));
         EXPECT_FALSE(fs::exists(file));
         store.save_entry("test/a", bytes_);

@@ -63,9 +63,9 @@ TEST(correlation, finds_a_delay_at_its_positive_lag) {  // oracle: the delay mad
     const Vector u = RandomStream(1).normal(500);
     Vector y = Vector::Zero(500);
     y.tail(493) = u.head(493);
-    Index most = 0;
-    lagged_products(y, u, 20).maxCoeff(&most);
-    EXPECT_EQ(most - 20, 7);
+    Index peak = 0;
+    lagged_products(y, u, 20).maxCoeff(&peak);
+    EXPECT_EQ(peak - 20, 7);
 }
 
 TEST(correlation, refuses_unequal_lengths) {

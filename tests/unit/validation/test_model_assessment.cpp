@@ -13,34 +13,34 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-std::string verdict_text(const ModelEvidence& model) {
-    return message_text(model_verdict(model));
+std::string quality_text(const ModelEvidence& model) {
+    return message_text(model_quality_message(model));
 }
 
 TEST(model_assessment, good_models_only_are_called_good) {
-    EXPECT_EQ(verdict_text({}),
+    EXPECT_EQ(quality_text({}),
               "The residuals contain no further information about the system, and the standard errors of the model are "
               "valid.");
     const auto not_good = Not(HasSubstr("contain no further information about the system"));
-    EXPECT_THAT(verdict_text({.unstable = true}), not_good);
-    EXPECT_THAT(verdict_text({.fit_percent = 5}), not_good);
-    EXPECT_THAT(verdict_text({.fit_percent = -30}), not_good);
-    EXPECT_THAT(verdict_text({.white = false}), not_good);
-    EXPECT_THAT(verdict_text({.independent = false}), not_good);
-    EXPECT_THAT(verdict_text({.doubts = {.undetermined = {"a2", "b2"}}}), not_good);
+    EXPECT_THAT(quality_text({.unstable = true}), not_good);
+    EXPECT_THAT(quality_text({.fit_percent = 5}), not_good);
+    EXPECT_THAT(quality_text({.fit_percent = -30}), not_good);
+    EXPECT_THAT(quality_text({.white = false}), not_good);
+    EXPECT_THAT(quality_text({.independent = false}), not_good);
+    EXPECT_THAT(quality_text({.doubts = {.undetermined = {"a2", "b2"}}}), not_good);
 }
 
 TEST(model_assessment, the_gravest_comes_first) {
-    EXPECT_THAT(verdict_text({.fit_percent = 5, .unstable = true}), StartsWith("The model is unstable"));
-    EXPECT_THAT(verdict_text({.fit_percent = 5, .white = false}), StartsWith("The model explains little"));
+    EXPECT_THAT(quality_text({.fit_percent = 5, .unstable = true}), StartsWith("The model is unstable"));
+    EXPECT_THAT(quality_text({.fit_percent = 5, .white = false}), StartsWith("The model explains little"));
     EXPECT_THAT(
-        verdict_text({.fit_percent = 5, .independent = false}),
+        quality_text({.fit_percent = 5, .independent = false}),
         testing::AllOf(StartsWith("The model explains little"), HasSubstr("The model does not describe all dynamics")));
-    EXPECT_THAT(verdict_text({.white = false, .doubts = {.undetermined = {"b0"}}}),
+    EXPECT_THAT(quality_text({.white = false, .doubts = {.undetermined = {"b0"}}}),
                 HasSubstr("do not reliably determine b0"));
-    EXPECT_THAT(verdict_text({.white = false}), HasSubstr("the dynamics. The disturbance is colored:"));
-    EXPECT_THAT(verdict_text({.white = false, .tested = false}), HasSubstr("cannot distinguish them"));
-    EXPECT_THAT(verdict_text({.fit_percent = 38, .white = false}),
+    EXPECT_THAT(quality_text({.white = false}), HasSubstr("the dynamics. The disturbance is colored:"));
+    EXPECT_THAT(quality_text({.white = false, .tested = false}), HasSubstr("cannot distinguish them"));
+    EXPECT_THAT(quality_text({.fit_percent = 38, .white = false}),
                 testing::AllOf(Not(HasSubstr("model describes the dynamics")), HasSubstr("(fit 38 %)"),
                                HasSubstr("nonlinearity")));
 }
@@ -48,12 +48,12 @@ TEST(model_assessment, the_gravest_comes_first) {
 TEST(model_assessment, known_causes_come_before_missing_dynamics) {
     const ModelEvidence remedy{
         .independent = false, .acts_at_once = true, .start = Message("B."), .doubts = {.remedy = Message("A.")}};
-    EXPECT_EQ(verdict_text(remedy), "A.");
+    EXPECT_EQ(quality_text(remedy), "A.");
     const ModelEvidence start{.independent = false, .acts_at_once = true, .start = Message("B.")};
-    EXPECT_EQ(verdict_text(start), "B.");
-    EXPECT_THAT(verdict_text({.independent = false, .acts_at_once = true}), HasSubstr("direct feedthrough"));
-    EXPECT_THAT(verdict_text({.independent = false, .acts_earlier = true}), HasSubstr("shorter delay"));
-    EXPECT_THAT(verdict_text({.independent = false}), StartsWith("The model does not describe all dynamics"));
+    EXPECT_EQ(quality_text(start), "B.");
+    EXPECT_THAT(quality_text({.independent = false, .acts_at_once = true}), HasSubstr("direct feedthrough"));
+    EXPECT_THAT(quality_text({.independent = false, .acts_earlier = true}), HasSubstr("shorter delay"));
+    EXPECT_THAT(quality_text({.independent = false}), StartsWith("The model does not describe all dynamics"));
 }
 
 // A remedy for one output, and its parameters, do not appear under another.

@@ -75,27 +75,27 @@ TEST(residual_tests, colored_noise_on_the_true_model_is_distinguished_from_missi
 // Oracle: how the data were made. Each data set has one cause, which the message names instead of missing poles.
 TEST(residual_tests, known_causes_are_named) {
     const Vector u = prbs(7, 8), e = 0.02 * RandomStream(1).normal(u.size());
-    const auto verdict_on = [](const Vector& input, const Vector& y, const TransferFunction& G,
+    const auto message_on = [](const Vector& input, const Vector& y, const TransferFunction& G,
                                const ModelDoubts& doubts) {
         const std::string text = message_text(
             residual_tests(simulated_data(y, input), {G}, {InitialState::kZero, Offset::kNone}, {}, doubts).verdict);
         EXPECT_EQ(text.find("The model does not describe all dynamics"), std::string::npos) << text;
         return text;
     };
-    const auto verdict = [&](const Vector& y, const TransferFunction& G, const ModelDoubts& doubts = {}) {
-        return verdict_on(u, y, G, doubts);
+    const auto message_for = [&](const Vector& y, const TransferFunction& G, const ModelDoubts& doubts = {}) {
+        return message_on(u, y, G, doubts);
     };
     const Vector answer = lsim(kG, u, kTs);
-    EXPECT_THAT(verdict(answer + 0.2 * u + e, kG), HasSubstr("as many zeros as poles"));
+    EXPECT_THAT(message_for(answer + 0.2 * u + e, kG), HasSubstr("as many zeros as poles"));
     const Vector fast = RandomStream(3).normal(u.size());
     const TransferFunction quick(Vector{{9.0}}, Vector{{1.0, 9.0}}), late(quick.num(), quick.den(), 0, 0.3);
-    EXPECT_THAT(verdict_on(fast, lsim(quick, fast, kTs) + e, late, {}), HasSubstr("try a shorter delay"));
+    EXPECT_THAT(message_on(fast, lsim(quick, fast, kTs) + e, late, {}), HasSubstr("try a shorter delay"));
     const Vector long_u = (Vector(2 * u.size()) << Vector::Constant(u.size(), 3), u).finished();
     const Vector running = lsim(kG, long_u, kTs).tail(u.size());
-    EXPECT_THAT(verdict(running + e, kG), HasSubstr("The assumed initial conditions are wrong: for a simulation"));
-    EXPECT_THAT(verdict(answer + 0.2 * u + e, kG, {{}, Message("With this the fit is 9 %.")}),
+    EXPECT_THAT(message_for(running + e, kG), HasSubstr("The assumed initial conditions are wrong: for a simulation"));
+    EXPECT_THAT(message_for(answer + 0.2 * u + e, kG, {{}, Message("With this the fit is 9 %.")}),
                 HasSubstr("With this the fit"));
-    EXPECT_THAT(verdict(answer + e, kG, {{"b0"}, {}}), HasSubstr("the data do not reliably determine b0"));
+    EXPECT_THAT(message_for(answer + e, kG, {{"b0"}, {}}), HasSubstr("the data do not reliably determine b0"));
 }
 
 TEST(residual_tests, tests_do_not_make_poor_models_good) {  // oracle: how the data were made
@@ -125,9 +125,9 @@ TEST(residual_tests, feedback_shows_at_negative_lags) {  // oracle: how the data
     EXPECT_TRUE(tests.outputs[0].inputs[0].independent);
     EXPECT_FALSE(tests.outputs[0].inputs[0].without_feedback);
     EXPECT_THAT(message_text(tests.verdict), HasSubstr("affect the input through feedback"));
-    Index most = 0;
-    tests.outputs[0].inputs[0].correlation.cwiseAbs().maxCoeff(&most);
-    EXPECT_EQ(most - 25, -1);
+    Index peak = 0;
+    tests.outputs[0].inputs[0].correlation.cwiseAbs().maxCoeff(&peak);
+    EXPECT_EQ(peak - 25, -1);
 }
 
 TEST(residual_tests, experiments_count_together) {  // oracle: second route, sums over the parts

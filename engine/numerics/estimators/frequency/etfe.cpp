@@ -10,7 +10,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kFewestSamplesOfEtfe = 8;
+constexpr Index kMinSamplesOfEtfe = 8;
 
 /// Weights 1 + cos over -m..m, none of them zero, of sum one.
 Vector hann_weights(Index m) {
@@ -87,7 +87,7 @@ SpectralEstimate etfe(const IdData& data, const EtfeOptions& options) {
             "spa, which combines experiments",
             data.experiments.size());
     const Experiment data_set =
-        nonparametric_data("etfe", data, kFewestSamplesOfEtfe, options.remove_mean).experiments.front();
+        nonparametric_data("etfe", data, kMinSamplesOfEtfe, options.remove_mean).experiments.front();
     const ComplexVector U = fourier_transform(data_set.u.col(0)), Y = fourier_transform(data_set.y.col(0));
     const Index N = U.size(), lines = N / 2;
     if (2 * options.smooth + 1 > lines)

@@ -20,7 +20,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr int kStartPasses = 20, kGridPasses = 5, kRoughIterations = 15, kMostIterations = 500;
+constexpr int kStartPasses = 20, kGridPasses = 5, kRoughIterations = 15, kMaxIterations = 500;
 constexpr double kRoughTolerance = 1e-3;
 constexpr std::size_t kBestDelays = 3;
 constexpr double kClearlyBetter = 0.98;  // of the loss, for an unstable model
@@ -56,10 +56,10 @@ double middle_frequency(const FrequencyData& data) {
 
 DelayRange range_of_delays(const FrequencyData& data, const FitOptions& options) {
     if (options.largest_delay) return {options.least_delay, *options.largest_delay};
-    constexpr double kQuarter = std::numbers::pi / 2, kMostQuarters = 50;
+    constexpr double kQuarter = std::numbers::pi / 2, kMaxQuarters = 50;
     double nearest = data.w[0];
     for (Index k = 1; k < data.w.size(); ++k) nearest = std::min(nearest, data.w[k] - data.w[k - 1]);
-    const double distinguishable = kQuarter / nearest, worth_it = kMostQuarters * kQuarter / middle_frequency(data);
+    const double distinguishable = kQuarter / nearest, worth_it = kMaxQuarters * kQuarter / middle_frequency(data);
     return {options.least_delay, std::max(options.least_delay, std::min(distinguishable, worth_it))};
 }
 
@@ -105,7 +105,7 @@ std::vector<Start> starts_of(const FrequencyData& data, const TransferStructure&
     return starts;
 }
 
-bool realizations_tell(const FrequencyData& data) {
+bool has_realization_variance(const FrequencyData& data) {
     return data.realized.cols() > 1 && data.variance.size() > 0;
 }
 
@@ -147,7 +147,7 @@ class FrequencySearch {
         }
         Searched end = continued(*best, options_, stable_alone);
         if (end.fit.termination == Termination::kIterationLimit && options_.extend_iterations)
-            end = continued(end, options_.limited(kMostIterations, options_.tolerance), stable_alone);
+            end = continued(end, options_.limited(kMaxIterations, options_.tolerance), stable_alone);
         return end;
     }
 
@@ -247,7 +247,7 @@ Fit frequency_fit(const std::string& method, const FrequencyData& data, const Tr
     fit.structure = structure;
     fit.delay_grid = reported.delay_grid, fit.delay_loss = reported.delay_loss;
     if (data.variance.size() > 0) fit.covariance /= fit.noise_variance[0];
-    if (realizations_tell(data))
+    if (has_realization_variance(data))
         fit.covariance =
             covariance_with_distortion(data, fit.covariance, search.changes_by_realization(found, fit.covariance));
     warn_of_search(fit, options);
@@ -307,7 +307,7 @@ Fit frequency_lssvf(const FrequencyData& data, const TransferStructure& structur
         1, fit.loss * static_cast<double>(2 * data.w.size()) / static_cast<double>(2 * data.w.size() - d));
     fit.condition_number = equations.condition_number;
     fit.covariance = scaled.seconds().asDiagonal() * (terms.transpose() * terms) * scaled.seconds().asDiagonal();
-    if (realizations_tell(data)) {
+    if (has_realization_variance(data)) {
         Matrix changes(d, data.realized.cols());
         Vector errors(rows.rows());
         for (Index j = 0; j < changes.cols(); ++j) {

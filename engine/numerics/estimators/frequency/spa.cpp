@@ -11,7 +11,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kFewestSamplesOfSpa = 8, kDefaultWindow = 30, kDefaultFrequencies = 128;
+constexpr Index kMinSamplesOfSpa = 8, kDefaultWindow = 30, kDefaultFrequencies = 128;
 constexpr double kPoorInput = 1e-4;    // part of the largest input power below which the input counts as not exciting
 constexpr double kLeastInput = 1e-10;  // what the response is divided by at least
 
@@ -108,7 +108,7 @@ void SpaOptions::validate() const {
 
 SpectralEstimate spa(const IdData& data, const SpaOptions& options) {
     options.validate();
-    const IdData data_set = nonparametric_data("spa", data, kFewestSamplesOfSpa, options.remove_mean);
+    const IdData data_set = nonparametric_data("spa", data, kMinSamplesOfSpa, options.remove_mean);
     Index shortest = data_set.sample_count();
     for (const Experiment& experiment : data_set.experiments) shortest = std::min(shortest, experiment.y.rows());
     const Index M = window_of(options, shortest);
@@ -121,11 +121,11 @@ SpectralEstimate spa(const IdData& data, const SpaOptions& options) {
     const double averages = static_cast<double>(data_set.sample_count()) / (0.75 * static_cast<double>(M));
     Vector input(count);
     for (Index i = 0; i < count; ++i) input[i] = transform_at(R.u, estimate.w[i] * data.Ts).real();
-    const double most = input.cwiseAbs().maxCoeff(), floor = kLeastInput * most;
+    const double max_input = input.cwiseAbs().maxCoeff(), floor = kLeastInput * max_input;
     bool poor = false;
     for (Index i = 0; i < count; ++i) {
         const double angle = estimate.w[i] * data.Ts;
-        poor = poor || input[i] < kPoorInput * most;
+        poor = poor || input[i] < kPoorInput * max_input;
         const SpectralPoint point = spectral_point(std::max(input[i], floor), transform_at(R.y, angle).real(),
                                                    transform_at(R.yu, angle), averages, real_share(angle, M));
         estimate.response[i] = point.response;

@@ -10,7 +10,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr double kStrongEvidenceOfStart = 10, kWorthPoints = 0.5, kMostCorrelated = 0.999;
+constexpr double kStrongEvidenceOfStart = 10, kWorthPoints = 0.5, kMaxCorrelation = 0.999;
 
 /// Of all outputs, each about its mean and in its weight.
 double weighted_variation(const IdData& data, const Vector& weights) {
@@ -21,7 +21,7 @@ double effective_samples(const Vector& errors) {
     const double squares = errors.squaredNorm();
     if (!(squares > 0)) return static_cast<double>(errors.size());
     const double r =
-        std::clamp(errors.head(errors.size() - 1).dot(errors.tail(errors.size() - 1)) / squares, 0.0, kMostCorrelated);
+        std::clamp(errors.head(errors.size() - 1).dot(errors.tail(errors.size() - 1)) / squares, 0.0, kMaxCorrelation);
     return static_cast<double>(errors.size()) * (1 - r) / (1 + r);
 }
 

@@ -53,7 +53,7 @@ struct Choice {
 
 /// Selects the candidates in turn: each time the one that explains most of the rest of the output. Each selected
 /// candidate is removed from all others (modified Gram-Schmidt).
-Choice choose_forwards(const Matrix& R, Index rows, Index most, const std::function<bool()>& cancel) {
+Choice choose_forwards(const Matrix& R, Index rows, Index max_terms, const std::function<bool()>& cancel) {
     const Index M = R.cols() - 1;
     Matrix W = R.leftCols(M);
     Vector rest = R.col(M);
@@ -61,15 +61,15 @@ Choice choose_forwards(const Matrix& R, Index rows, Index most, const std::funct
     const double power = rest.squaredNorm(), N = static_cast<double>(rows);
     std::vector<bool> taken(static_cast<std::size_t>(M), false);
     Choice choice;
-    while (static_cast<Index>(choice.terms.size()) < most) {
+    while (static_cast<Index>(choice.terms.size()) < max_terms) {
         check_canceled("narx", cancel);
         Index best = -1;
-        double most_explained = 0;
+        double max_explained = 0;
         for (Index j = 0; j < M; ++j) {
             const double own = W.col(j).squaredNorm();
             if (taken[static_cast<std::size_t>(j)] || own <= kDependent * powers[j]) continue;
             const double along = W.col(j).dot(rest), explained = along * along / own;
-            if (explained > most_explained) most_explained = explained, best = j;
+            if (explained > max_explained) max_explained = explained, best = j;
         }
         if (best < 0) break;
         taken[static_cast<std::size_t>(best)] = true;
@@ -78,7 +78,7 @@ Choice choose_forwards(const Matrix& R, Index rows, Index most, const std::funct
         for (Index j = 0; j < M; ++j)
             if (!taken[static_cast<std::size_t>(j)]) W.col(j) -= q * q.dot(W.col(j));
         choice.terms.push_back(best);
-        choice.error_reduction.push_back(most_explained / power);
+        choice.error_reduction.push_back(max_explained / power);
         choice.bic.push_back(bic_of_loss(rest.squaredNorm() / N, power / N, rows, choice.terms.size()));
     }
     return choice;
@@ -109,7 +109,7 @@ void solve_chosen(NarxFit& found, const Matrix& R, const std::vector<Index>& ter
 }
 
 /// The fits of the free run and one step ahead, and where the former is lost.
-void judge(NarxFit& found, const IdData& data, Index rows) {
+void assess(NarxFit& found, const IdData& data, Index rows) {
     Fit& fit = found.fit;
     const double variation = output_variations(data)[0];
     double errors = 0;
@@ -265,8 +265,8 @@ NarxFit narx(const IdData& data, const NarxLags& lags, const NarxOptions& option
     check(data, lags, options, monomials.count());
     const Index rows = equation_count(data, lags);
     const Matrix R = candidates_and_output(data, lags, monomials, options.cancel);
-    const Index most = options.terms > 0 ? options.terms : std::min({kMaxTerms, monomials.count(), rows - 2});
-    const Choice choice = choose_forwards(R, rows, most, options.cancel);
+    const Index max_terms = options.terms > 0 ? options.terms : std::min({kMaxTerms, monomials.count(), rows - 2});
+    const Choice choice = choose_forwards(R, rows, max_terms, options.cancel);
     if (choice.terms.empty())
         throw InvalidArgument("narx: no candidate term explains the output. Use other lags or a higher degree");
     const std::vector<Index> terms(choice.terms.begin(), choice.terms.begin() + number_of_terms(choice, options.terms));
@@ -281,7 +281,7 @@ NarxFit narx(const IdData& data, const NarxLags& lags, const NarxOptions& option
         largest = std::max(largest, experiment.y.cwiseAbs().maxCoeff());
     found.model = std::make_shared<NarxModel>(lags, monomials, terms, found.fit.theta, data.Ts, largest);
     found.equation = equation_text(data, found);
-    judge(found, data, rows);
+    assess(found, data, rows);
     if (found.fit.condition_number > kAmbiguousCondition)
         warn_of_doubtful_parameters(found.fit, SimplerModel::kFewerTerms);
     found.fit.message =

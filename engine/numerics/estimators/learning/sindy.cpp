@@ -101,7 +101,7 @@ std::string equation_text(const std::string& state, const FunctionLibrary& libra
     return first ? text + " 0" : text;
 }
 
-void judge(SindyFit& found, const IdData& data) {
+void assess(SindyFit& found, const IdData& data) {
     Fit& fit = found.fit;
     Vector errors = Vector::Zero(data.output_count());
     for (std::size_t k = 0; k < data.experiments.size(); ++k) {
@@ -170,7 +170,7 @@ void describe(SindyFit& found, const IdData& data, const SindyOptions& options) 
             Message("The functions of the library are nearly linearly dependent on these data (condition number {}): "
                     "use fewer functions.",
                     significant(fit.condition_number, 2)));
-    judge(found, data);
+    assess(found, data);
     const Message equations = options.weak ? Message("in weak form") : Message("from derivatives");
     fit.message = Message("Sparse equations {} with {} of {}: {}.", equations, theta.size(),
                           plural(Xi.size(), "{} coefficient", "{} coefficients"), simulation_text(fit));

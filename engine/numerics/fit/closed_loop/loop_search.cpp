@@ -14,7 +14,7 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr int kHalvings = 12;
-constexpr double kToldByLoss = 1e-13;  // of the loss: what a step must promise, for rounding not to hide it
+constexpr double kMinLossDecrease = 1e-13;  // of the loss: what a step must promise, for rounding not to hide it
 
 /// The loop of a theta and the known controller.
 class LoopOutput {
@@ -117,12 +117,12 @@ Fit search_loop(Fit start, const IdData& data, const FitOptions& options, const 
         const Vector sizes = fit.theta.array().abs().max(1e-12 * fit.theta.cwiseAbs().maxCoeff());
         const bool settled = step.cwiseQuotient(sizes).cwiseAbs().maxCoeff() <= options.tolerance;
         // Next to the least loss its last digits say nothing of a step.
-        const bool is_told = (psi * step).squaredNorm() > kToldByLoss * errors.squaredNorm();
+        const bool is_significant = (psi * step).squaredNorm() > kMinLossDecrease * errors.squaredNorm();
         Vector tried;
         int halvings = 0;
         for (; halvings <= kHalvings; ++halvings, step /= 2) {
             tried = model.errors(fit.theta + step);
-            if (tried.squaredNorm() <= errors.squaredNorm() || (!is_told && tried.allFinite())) break;
+            if (tried.squaredNorm() <= errors.squaredNorm() || (!is_significant && tried.allFinite())) break;
         }
         if (halvings > kHalvings) {
             fit.termination = settled ? Termination::kConverged : Termination::kNoProgress;

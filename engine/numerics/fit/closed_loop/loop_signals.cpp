@@ -13,7 +13,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kFewestWeights = 8, kMostWeights = 128;  // of the projection; doubled in between
+constexpr Index kMinWeights = 8, kMaxWeights = 128;  // of the projection; doubled in between
 constexpr double kHeldReference = 1e-10;    // of the largest diagonal: weights that a held reference does not determine
 constexpr double kBelievedController = 50;  // per cent of u that C (r - y) must explain
 constexpr double kTimesChance = 4;          // times what as many weights explain of anything by chance
@@ -54,12 +54,12 @@ struct Projection {
     double explained = 0;
 };
 Projection best_projection(const IdData& data) {
-    const Index longest = std::clamp<Index>(data.sample_count() / 10, 1, kMostWeights);
-    const ProjectionSums sums = projection_sums(data, longest);
+    const Index max_weights = std::clamp<Index>(data.sample_count() / 10, 1, kMaxWeights);
+    const ProjectionSums sums = projection_sums(data, max_weights);
     const auto N = static_cast<double>(data.sample_count());
     Projection best;
     double least = kInfinity;
-    for (Index count = std::min(kFewestWeights, longest);; count = std::min(2 * count, longest)) {
+    for (Index count = std::min(kMinWeights, max_weights);; count = std::min(2 * count, max_weights)) {
         Matrix gram = sums.gram.topLeftCorner(count, count);
         gram.diagonal().array() += kHeldReference * gram.diagonal().maxCoeff();
         const Vector weights = solve_semidefinite(gram, sums.products.head(count));
@@ -69,7 +69,7 @@ Projection best_projection(const IdData& data) {
             least = bic;
             best = {weights, 1 - left / sums.energy};
         }
-        if (count == longest) return best;
+        if (count == max_weights) return best;
     }
 }
 

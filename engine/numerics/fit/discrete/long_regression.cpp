@@ -12,15 +12,15 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kMostCoefficients = 100;       // of a polynomial
+constexpr Index kMaxCoefficients = 100;        // of a polynomial
 constexpr double kSamplesPerCoefficient = 10;  // at least
 constexpr double kBeyondChance = 5;            // standard deviations of the excess of one variance over the other
 constexpr double kLeastVariance = 1e-20;       // of the output's power: smaller errors are rounding
 
 Index coefficient_count(const IdData& data) {
     const double N = static_cast<double>(data.sample_count());
-    const double most = N / (kSamplesPerCoefficient * static_cast<double>(1 + data.input_count()));
-    return static_cast<Index>(std::min(10 * std::log10(N), most));
+    const double max_order = N / (kSamplesPerCoefficient * static_cast<double>(1 + data.input_count()));
+    return static_cast<Index>(std::min(10 * std::log10(N), max_order));
 }
 
 /// L x, where x is `before` up to its first sample.
@@ -45,10 +45,10 @@ IdData filtered_by(const IdData& data, const Vector& L, bool from_rest) {
 
 }  // namespace
 
-LongRegression::LongRegression(const IdData& data, Index most_late) : data_(data) {
+LongRegression::LongRegression(const IdData& data, Index max_delay_samples) : data_(data) {
     const Index p = coefficient_count(data);
     if (p < 2) return;
-    const auto own = static_cast<int>(p), late = static_cast<int>(std::min(p + most_late, kMostCoefficients));
+    const auto own = static_cast<int>(p), late = static_cast<int>(std::min(p + max_delay_samples, kMaxCoefficients));
     const auto inputs = static_cast<std::size_t>(data.input_count());
     orders_ = PolynomialOrders::arx(own, std::vector<int>(inputs, late), std::vector<int>(inputs, 0));
     const ArxEquations equations(data, orders_);

@@ -13,8 +13,8 @@ namespace dynlab::inline numerics {
 /// data to start from instead. One output, regular sampling.
 class LongRegression {
   public:
-    /// Inputs may be late by up to `most_late` samples. Keeps a reference to the data.
-    LongRegression(const IdData& data, Index most_late);
+    /// Inputs may be late by up to `max_delay_samples` samples. Keeps a reference to the data.
+    LongRegression(const IdData& data, Index max_delay_samples);
 
     /// Whether the regression predicts better, beyond chance, than a model whose errors have this variance.
     bool predicts_better_than(double variance) const;

@@ -20,13 +20,13 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kRoomFor = 4;              // delays (samples) in one difference equation
+constexpr Index kDelaysPerEquation = 4;    // delays (samples) in one difference equation
 constexpr Index kMaxWindows = 8;           // so many of these, around the delay found
 constexpr Index kWindowSamples = 5'000;    // on which they are compared
 constexpr Index kExactSamples = 20'000;    // on which the chosen ones are fitted
 constexpr double kClearlySmaller = 0.995;  // of the loss found
 constexpr int kPartsOfSample = 4;          // delays that are tried in each sampling interval
-constexpr std::size_t kMostSampledStarts = 3;
+constexpr std::size_t kMaxSampledStarts = 3;
 constexpr int kSampledIterations = 10;
 constexpr double kSampledTolerance = 1e-3;
 constexpr double kAlternating = 2;  // rad a sample: where a pole on the negative real axis goes
@@ -71,21 +71,21 @@ std::vector<Vector> sampled_starts(const IdData& data, const TransferStructure& 
     Index first = here, last = here;
     if (structure.free_delays) {
         const DelayRange range = delay_range(data, options);
-        const Index least = samples(range.least), most = samples(range.largest);
+        const Index least = samples(range.least), max_delay = samples(range.largest);
         std::vector<Index> windows;
-        for (Index window = std::max(least, here - kRoomFor * kMaxWindows / 2);
-             window <= std::min(most, here + kRoomFor * kMaxWindows / 2); window += kRoomFor)
+        for (Index window = std::max(least, here - kDelaysPerEquation * kMaxWindows / 2);
+             window <= std::min(max_delay, here + kDelaysPerEquation * kMaxWindows / 2); window += kDelaysPerEquation)
             windows.push_back(window);
         std::vector<double> losses(windows.size());
         side_by_side(windows.size(), [&](std::size_t i) {
-            losses[i] = fit_sampled(few, structure, found.start, windows[i], kRoomFor - 1, options).loss;
+            losses[i] = fit_sampled(few, structure, found.start, windows[i], kDelaysPerEquation - 1, options).loss;
         });
         double smallest = kInfinity;
         for (std::size_t i = 0; i < windows.size(); ++i) {
             if (!(losses[i] < smallest)) continue;
             smallest = losses[i];
             first = windows[i];
-            last = std::min(first + kRoomFor - 1, most);
+            last = std::min(first + kDelaysPerEquation - 1, max_delay);
         }
     }
     std::vector<NestedSolution> all(static_cast<std::size_t>(last - first + 1));
@@ -104,7 +104,7 @@ std::vector<Vector> sampled_starts(const IdData& data, const TransferStructure& 
     std::erase_if(all, [](const NestedSolution& one) { return one.theta.size() == 0; });
     std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.loss < b.loss; });
     std::vector<Vector> starts;
-    for (std::size_t i = 0; i < std::min(kMostSampledStarts, all.size()); ++i) starts.push_back(all[i].theta);
+    for (std::size_t i = 0; i < std::min(kMaxSampledStarts, all.size()); ++i) starts.push_back(all[i].theta);
     return starts;
 }
 

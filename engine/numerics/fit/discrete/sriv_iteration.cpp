@@ -14,7 +14,7 @@ namespace {
 constexpr std::array kFilterPoles = {0.9, 0.5, 0.98, 0.8, 0.95, 0.0};
 constexpr int kStartIterations = 4;
 constexpr double kStartTolerance = 1e-3, kSameLoss = 1e-4;
-constexpr double kShortestStep = 1.0 / 8, kRounding = 1e-9;
+constexpr double kMinStepLength = 1.0 / 8, kRounding = 1e-9;
 
 /// Lengths of columns by the sums of their squares; one for those without any.
 Vector lengths_of(const Matrix& gram) {
@@ -30,7 +30,7 @@ Vector instrumental_solution(const Matrix& psi_phi, const Vector& psi_e, const V
     const Vector left = psi_lengths.cwiseInverse(), right = phi_lengths.cwiseInverse();
     const Matrix system = left.asDiagonal() * psi_phi * right.asDiagonal();
     const Vector known = left.asDiagonal() * psi_e;
-    return right.asDiagonal() * shortest_solution(system, known);
+    return right.asDiagonal() * minimum_norm_solution(system, known);
 }
 
 struct Point {
@@ -54,7 +54,7 @@ bool move(const DiscreteOutput& model, const Vector& y, const Vector& step, Poin
     for (double part = 1;; part /= 2) {
         const Vector requested = from + part * step, next = model.with_stable_poles(requested);
         here = point_at(model, y, next);
-        if (here.loss <= loss * (1 + kRounding) || part <= kShortestStep) return next != requested;
+        if (here.loss <= loss * (1 + kRounding) || part <= kMinStepLength) return next != requested;
     }
 }
 

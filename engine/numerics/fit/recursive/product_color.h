@@ -30,7 +30,7 @@ template <std::size_t kMax>
 class ProductColor {
   public:
     /// `block`: samples, above zero.
-    explicit ProductColor(double block) : shortest_(block), length_(block) {}
+    explicit ProductColor(double block) : min_length_(block), length_(block) {}
 
     /// The weights of all samples before were multiplied by `weight`.
     void add(const SmallRow<kMax>& z, double error, std::size_t d, double weight) {
@@ -81,10 +81,10 @@ class ProductColor {
         if (now_.blocks < 2 * earlier_.blocks) return;
         earlier_ = now_;
         now_ = {};
-        length_ = shortest_ * std::max(1.0, std::cbrt(samples_ / (kFewBlocks * shortest_)));
+        length_ = min_length_ * std::max(1.0, std::cbrt(samples_ / (kFewBlocks * min_length_)));
     }
 
-    double shortest_, length_, in_block_ = 0, block_weight_ = 0, samples_ = 0;
+    double min_length_, length_, in_block_ = 0, block_weight_ = 0, samples_ = 0;
     SmallRow<kMax> block_{};
     Sums now_, earlier_;
 };

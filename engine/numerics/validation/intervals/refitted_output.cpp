@@ -12,8 +12,8 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr double kMostErrorsOff = 3;  // standard errors: largest change of a parameter by refitting that is accepted
-                                      // without a message
+constexpr double kMaxErrorsOff = 3;  // standard errors: largest change of a parameter by refitting that is accepted
+                                     // without a message
 
 /// A model some of whose parameters stay where they are.
 class HeldOutput : public OutputErrorModel {
@@ -139,7 +139,7 @@ Fit RefittedOutput::fit(const std::map<Index, double>& held, const Fit* from, co
 std::optional<Message> RefittedOutput::moved(const Fit& fit) const {
     const Vector errors = (fit.theta - fitted_.theta).cwiseAbs().cwiseQuotient(fit.std);
     Index place = 0;
-    if (!(errors.maxCoeff(&place) > kMostErrorsOff)) return std::nullopt;
+    if (!(errors.maxCoeff(&place) > kMaxErrorsOff)) return std::nullopt;
     return Message(
         "The model does not minimize the simulation error on these data: {} = {} becomes {}, and the intervals refer "
         "to the new value.",

@@ -51,7 +51,8 @@ constexpr std::array kResponseOptions = {
     option<&FrequencyData::output_unit>("OutputUnit", about("unit of the output"))};
 constexpr std::array kBlaOptions = {
     OptionEntry{"period", ValueKind::kCount, about("period of the input in samples; required")},
-    option<&BlaOptions::realizations>("realizations", about("number of realizations in each experiment"), {.least = 1}),
+    option<&BlaOptions::realizations>("realizations", about("number of realizations in each experiment"),
+                                      {.minimum = 1}),
     option<&BlaOptions::transient>(
         "transient", about("number of periods to omit at the beginning of every realization"), {.member = "transient"}),
     option<&BlaOptions::smooth>(

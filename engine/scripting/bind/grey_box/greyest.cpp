@@ -22,14 +22,14 @@ constexpr std::array kGreyOptions = {
                                               "states estimated for each experiment (\"estimate\")"),
                                         {.initial = "\"model\"", .choices = kGreyStarts, .member = "initial_state"}),
     option<&GreyOptions::max_iterations>("MaxIter", about("maximum number of iterations"),
-                                         {.least = 0, .member = "max_iterations"}),
+                                         {.minimum = 0, .member = "max_iterations"}),
     option<&GreyOptions::tolerance>("Tol", about("relative change of the parameters at which the search stops"),
                                     {.initial = "1e-6", .member = "tolerance"}),
     option<&GreyOptions::relative_tolerance>(
         "RelTol",
         about("relative tolerance of an integration step; parameters with little effect on the outputs need a smaller "
               "value"),
-        {.initial = "1e-7", .least = 1e-13, .most = 1e-2, .member = "relative_tolerance"}),
+        {.initial = "1e-7", .minimum = 1e-13, .maximum = 1e-2, .member = "relative_tolerance"}),
     option<&GreyOptions::output_weights>(
         "OutputWeights",
         about("weights of the errors, one per output; by default 1/(standard deviation of the errors)"),

@@ -19,18 +19,19 @@ namespace {
 
 constexpr std::array kBootstrapKinds = {"residual", "parametric"};
 constexpr std::array kBootstrapOptions = {
-    option<&BootstrapOptions::runs>("runs", about("number of repeated experiments"), {.least = 20, .member = "runs"}),
+    option<&BootstrapOptions::runs>("runs", about("number of repeated experiments"), {.minimum = 20, .member = "runs"}),
     option<&BootstrapOptions::kind>("kind",
                                     about("noise of each run: residuals drawn with replacement (\"residual\"), or "
                                           "normally distributed noise (\"parametric\")"),
                                     {.initial = "\"residual\"", .choices = kBootstrapKinds}),
-    option<&BootstrapOptions::seed>("seed", about("seed of the noise"), {.most = kMaxSeed}),
+    option<&BootstrapOptions::seed>("seed", about("seed of the noise"), {.maximum = kMaxSeed}),
     option<&BootstrapOptions::confidence>("confidence", about("confidence level of the intervals"),
                                           {.member = "confidence"})};
 constexpr OptionEntry kProfileOptions[] = {
     option<&ProfileOptions::confidence>("confidence", about("confidence level of the interval"),
                                         {.member = "confidence"}),
-    option<&ProfileOptions::points>("points", about("number of points of the grid"), {.least = 5, .member = "points"}),
+    option<&ProfileOptions::points>("points", about("number of points of the grid"),
+                                    {.minimum = 5, .member = "points"}),
     {"range",
      ValueKind::kVector,
      about("limits {low, high} of the grid; by default, four standard errors on each side of the estimate, or more if "

@@ -55,7 +55,7 @@ constexpr std::array kDmdcOptions = {
     option<&DmdcOptions::rank>("rank", about("number of states; 0 for the numerical rank of the snapshots"),
                                {.member = "rank"}),
     option<&DmdcOptions::delays>("delays", about("number of samples in a snapshot; 1 for the outputs of one instant"),
-                                 {.least = 1, .member = "delays"})};
+                                 {.minimum = 1, .member = "delays"})};
 constexpr OptionTable kNarx[] = {kNarxOptions}, kSindy[] = {kSindyOptions}, kDmdc[] = {kDmdcOptions};
 
 constexpr std::array kNarxArguments = {

@@ -33,7 +33,7 @@ constexpr std::array kRecursiveOptions = {
         {.member = "noise_variance"}),
     option<&RecursiveOptions::history_points>(
         "HistoryPoints", about("maximum number of equally spaced instants in the history, including the last sample"),
-        {.least = 1, .member = "history_points"}),
+        {.minimum = 1, .member = "history_points"}),
     OptionEntry{"model", ValueKind::kModel,
                 about("fixed model for filters and instruments (rivsvf and rsrivc), instead of the current estimate")},
     kHoldOfOutput<RecursiveOptions>};
