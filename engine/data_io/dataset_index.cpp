@@ -8,7 +8,7 @@
 #include <sstream>
 #include <variant>
 
-#include "data_io/packaged_record.h"
+#include "data_io/packaged_data.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
 #include "platform/spelling.h"

@@ -1,6 +1,6 @@
 // What is chosen of a data file becomes code; names of files and of columns never do. Oracles: the script's own parser,
 // and what the script gives when it is run.
-#include "app/workbench/record_choice.h"
+#include "app/workbench/data_choice.h"
 
 #include <gmock/gmock.h>
 

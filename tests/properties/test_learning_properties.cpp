@@ -4,7 +4,7 @@
 #include "numerics/estimators/learning/dmdc.h"
 #include "numerics/estimators/learning/narx.h"
 #include "numerics/estimators/learning/sindy.h"
-#include "support/nonlinear_records.h"
+#include "support/nonlinear_data.h"
 
 namespace test_learning_properties {
 

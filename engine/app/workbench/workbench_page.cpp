@@ -11,7 +11,7 @@
 #include "app/live/permissions.h"
 #include "app/page/page_routes.h"
 #include "app/server/web_server.h"
-#include "app/workbench/record_choice.h"
+#include "app/workbench/data_choice.h"
 #include "app/workbench/workbench_session.h"
 #include "data_io/dataset_index.h"
 #include "data_io/values/json_values.h"

@@ -8,7 +8,7 @@
 #include <variant>
 
 #include "base/reader.h"
-#include "course/checks/check_records.h"
+#include "course/checks/check_data.h"
 #include "course/checks/check_session.h"
 #include "data_io/values/json_values.h"
 #include "platform/spelling.h"

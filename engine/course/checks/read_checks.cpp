@@ -4,8 +4,8 @@
 
 #include <chrono>
 
+#include "course/checks/check_data.h"
 #include "course/checks/check_functions.h"
-#include "course/checks/check_records.h"
 #include "course/sandbox_jobs/sandbox_messages.h"
 #include "documents/text_lines.h"
 #include "platform/hash.h"

@@ -5,7 +5,7 @@
 
 #include "numerics/criteria/initial_conditions.h"
 #include "numerics/criteria/output_error_model.h"
-#include "numerics/filters/regression_record.h"
+#include "numerics/filters/regression_data.h"
 #include "numerics/models/transfer_structure.h"
 #include "numerics/signals/iddata.h"
 

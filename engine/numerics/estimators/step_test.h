@@ -4,7 +4,7 @@
 
 #include "base/message.h"
 #include "numerics/models/transfer_function.h"
-#include "numerics/signals/step_record.h"
+#include "numerics/signals/step_data.h"
 
 namespace dynlab::inline numerics {
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "numerics/filters/delta_chain.h"
-#include "numerics/filters/regression_record.h"
+#include "numerics/filters/regression_data.h"
 #include "numerics/linalg/state_matrix.h"
 
 namespace dynlab::inline numerics {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "numerics/filters/filter_products.h"
-#include "numerics/filters/regression_record.h"
+#include "numerics/filters/regression_data.h"
 #include "numerics/filters/sensitivity_system.h"
 
 namespace dynlab::inline numerics {

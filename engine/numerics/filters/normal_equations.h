@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "numerics/filters/regression_record.h"
+#include "numerics/filters/regression_data.h"
 
 namespace dynlab::inline numerics {
 

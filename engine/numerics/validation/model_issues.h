@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "numerics/validation/advice_record.h"
+#include "numerics/validation/fitted_data.h"
 
 namespace dynlab::inline numerics {
 

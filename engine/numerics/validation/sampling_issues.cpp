@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "numerics/signals/robust_statistics.h"
-#include "numerics/validation/advice_record.h"
+#include "numerics/validation/fitted_data.h"
 
 namespace dynlab::inline numerics {
 

@@ -8,7 +8,7 @@
 #include "numerics/signals/quantization.h"
 #include "numerics/signals/repair.h"
 #include "numerics/statistics/wrapped_period.h"
-#include "numerics/validation/advice_record.h"
+#include "numerics/validation/fitted_data.h"
 #include "numerics/validation/sampling_issues.h"
 
 namespace dynlab::inline numerics {

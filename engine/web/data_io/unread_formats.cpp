@@ -1,4 +1,4 @@
-#include "data_io/packaged_record.h"
+#include "data_io/packaged_data.h"
 #include "data_io/workbook.h"
 #include "platform/error.h"
 

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "base/reader.h"
-#include "support/nonlinear_records.h"
+#include "support/nonlinear_data.h"
 #include "support/thrown_message.h"
 
 namespace test_sindy {

@@ -1,4 +1,4 @@
-#include "numerics/validation/advice_record.h"
+#include "numerics/validation/fitted_data.h"
 
 #include <algorithm>
 #include <cmath>

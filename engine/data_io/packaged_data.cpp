@@ -1,4 +1,4 @@
-#include "data_io/packaged_record.h"
+#include "data_io/packaged_data.h"
 
 #include <boost/iostreams/filter/gzip.hpp>
 #include <boost/iostreams/filtering_stream.hpp>

@@ -1,4 +1,4 @@
-#include "numerics/signals/step_record.h"
+#include "numerics/signals/step_data.h"
 
 #include <algorithm>
 #include <cmath>

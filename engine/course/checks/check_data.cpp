@@ -1,4 +1,4 @@
-#include "course/checks/check_records.h"
+#include "course/checks/check_data.h"
 
 #include <array>
 

@@ -1,4 +1,4 @@
-#include "app/workbench/record_choice.h"
+#include "app/workbench/data_choice.h"
 
 #include <fmt/format.h>
 
