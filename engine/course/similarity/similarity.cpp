@@ -187,7 +187,7 @@ std::string whole_percent(double share) {
 
 std::string percent_range(double low, double high) {
     const std::string from = whole_percent(low), to = whole_percent(high);
-    return from == to ? to : fmt::format("{:.0f} to {}", 100 * least, to);
+    return from == to ? to : fmt::format("{:.0f} to {}", 100 * low, to);
 }
 
 /// Scripts joined by pairs.
