@@ -71,7 +71,7 @@ TEST_F(preview_french, the_page_speaks_its_document_s_language) {
     write(wrong);
     EXPECT_TRUE(says(browser, "state", "^arrêté par une erreur$"));
     EXPECT_TRUE(says(browser, "to-mistake", "^Aller à l.erreur$"));
-    EXPECT_TRUE(shows(browser, "ni fonction ni variable"));
+    EXPECT_TRUE(shows(browser, "fonction ou variable inconnue"));
 
     write(kHead + kFirst);  // English from here on
     EXPECT_TRUE(shows(browser, "x is 20"));
@@ -159,7 +159,7 @@ TEST_F(preview_french, findings_and_what_is_submitted_are_reported_in_french) {
     expect_no_english(all_words(browser, "#findings"));
 
     browser.click("#show-hand-in");
-    EXPECT_TRUE(says(browser, "made", "dynlab fait le rapport à partir du script enregistré"));
+    EXPECT_TRUE(says(browser, "made", "dynlab crée le rapport à partir du script enregistré"));
     browser.click("#make-report");
     EXPECT_TRUE(says(browser, "made", "mine\\/report.pdf", 60));
     EXPECT_TRUE(browser.becomes_true("!document.getElementById('make-pack').disabled"));
