@@ -65,7 +65,7 @@ TEST_F(preview_french, the_page_speaks_its_document_s_language) {
     std::string wrong = kFrench + kSome;
     wrong.replace(wrong.find("Des mots"), 3, "Voir @fig:rien. Des");
     write(wrong);
-    EXPECT_TRUE(says(browser, "complaints", "le renvoi @fig:rien ne mène nulle part"));
+    EXPECT_TRUE(says(browser, "complaints", "le renvoi @fig:rien n.a pas de cible"));
     wrong = kFrench + kSome;
     wrong.replace(wrong.find("print("), 6, "pritn(");
     write(wrong);
@@ -154,7 +154,7 @@ TEST_F(preview_french, findings_and_what_is_submitted_are_reported_in_french) {
         << browser.evaluate("return document.getElementById('show-findings').innerText");
     browser.click("#show-findings");
     for (const char* words : {"Réponses manquantes", "gain \\(nombre\\)", "À corriger", "La question 1 est ouverte",
-                              "Contrôles de la leçon.: 0 sur 3 points"})
+                              "Vérifications de la leçon.: 0 sur 3 points"})
         EXPECT_TRUE(says(browser, "findings", words)) << words;
     expect_no_english(all_words(browser, "#findings"));
 

@@ -57,14 +57,14 @@ TEST(feedback, is_titled_after_the_group_and_not_after_the_folder_of_a_platform)
     EXPECT_THAT(
         feedback("Zoé Lefèvre_900001"),
         AllOf(StartsWith("# Retour pour group-03\n\nLeçon 99\\_small, points\u202F: **0 sur 2,5.**\n\nVotre script est "
-                         "allé jusqu'au bout.\n\n## Contrôles\n\n- **The number** – 0 sur 2,5"),
+                         "allé jusqu'au bout.\n\n## Vérifications\n\n- **The number** – 0 sur 2,5"),
               Not(HasSubstr("assignsubmission")), HasSubstr("écrivez à votre enseignant")));
     EXPECT_THAT(feedback("Ada Byron_900002"), StartsWith("# Retour pour Ada Byron\n\nLeçon"));
     EXPECT_THAT(feedback("Ida Rhodes_900003"),
                 StartsWith("# Feedback for group-04\n\nLesson 99\\_small: **2.5 of 2.5 points.**"));
     const std::string pdf =
         work.shell("pdftotext -layout out/results/Zo*/feedback.pdf - && pdfinfo out/results/Zo*/feedback.pdf").output;
-    EXPECT_THAT(pdf, AllOf(HasSubstr("Retour pour group-03"), HasSubstr("Contrôles"), HasSubstr("0 sur 2,5"),
+    EXPECT_THAT(pdf, AllOf(HasSubstr("Retour pour group-03"), HasSubstr("Vérifications"), HasSubstr("0 sur 2,5"),
                            ContainsRegex("Leçon 99_small, points *(\u202F)? *: 0 sur 2,5[.]"),
                            Not(HasSubstr("assignsubmission"))));
     const std::string english = work.shell("pdftotext -layout out/results/Ida*/feedback.pdf -").output;
