@@ -311,8 +311,8 @@ ClockSearch find_clock(const LoadedData& data, Index samples, const ImportOption
     ClockSearch best;
     if (different.size() > 1) {
         best.question = Message(
-            "the columns {} are two time columns, and each signal belongs to one of them. Interpolate the signals to "
-            "the instants of one time column, for example an output with interp1(t_y, y, t_u)",
+            "the file has several time columns ({}), and each signal belongs to one of them. Interpolate the signals "
+            "to the instants of one time column, for example an output with interp1(t_y, y, t_u)",
             listed(different));
         best.rivals = std::move(different), best.likely = true;
         return best;

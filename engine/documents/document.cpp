@@ -59,10 +59,10 @@ std::string section_of(const std::string& body, int line) {
 Message refusal_message(const Message& reason, const std::string& section, const std::string& before) {
     if (section.empty())
         return before.empty() ? Message("LaTeX cannot typeset this document: {}", reason)
-                              : Message("LaTeX cannot typeset this document: {} after \"{}\"", reason, before);
+                              : Message("LaTeX cannot typeset this document after \"{}\": {}", before, reason);
     return before.empty() ? Message("LaTeX cannot typeset this document in section \"{}\": {}", section, reason)
-                          : Message("LaTeX cannot typeset this document in section \"{}\": {} after \"{}\"", section,
-                                    reason, before);
+                          : Message("LaTeX cannot typeset this document in section \"{}\" after \"{}\": {}", section,
+                                    before, reason);
 }
 
 /// A character as a message shows it: accents on a dotted circle.

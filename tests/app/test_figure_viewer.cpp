@@ -71,7 +71,7 @@ TEST(figure_viewer, speaks_the_language_of_the_browser) {
     viewer->show("figure-1.pdf", figure_titled("First"));
     EXPECT_TRUE(state_is("^1$"));
     viewer.reset();
-    EXPECT_TRUE(state_is("^dynlab est terminé.; voici les dernières figures$"));
+    EXPECT_TRUE(state_is("^dynlab s'est arrêté.; cette page montre les dernières figures$"));
 }
 
 /// A page needs nothing of a language but its catalog.

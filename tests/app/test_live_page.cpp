@@ -69,7 +69,7 @@ TEST_F(live_page, content_has_what_is_wrong_and_the_pictures_that_are_shown_now)
 
 const Message kWrong = Message("{}{}", "analysis.lua:3: ", Message("unknown function or variable '{}'", "y"));
 constexpr const char* kWrongInEnglish = "analysis.lua:3: unknown function or variable 'y'";
-constexpr const char* kWrongInFrench = "analysis.lua:3: il n'y a ni fonction ni variable «\u00A0y\u00A0»";
+constexpr const char* kWrongInFrench = "analysis.lua:3: fonction ou variable inconnue\u202F: «\u00A0y\u00A0»";
 
 /// Issues are created in English, as programs read them.
 TEST_F(live_page, reports_in_the_document_s_language_what_is_wrong_and_found) {

@@ -65,13 +65,13 @@ TEST_F(preview_french, the_page_speaks_its_document_s_language) {
     std::string wrong = kFrench + kSome;
     wrong.replace(wrong.find("Des mots"), 3, "Voir @fig:rien. Des");
     write(wrong);
-    EXPECT_TRUE(says(browser, "complaints", "le renvoi @fig:rien ne mène nulle part"));
+    EXPECT_TRUE(says(browser, "complaints", "le renvoi @fig:rien n.a pas de cible"));
     wrong = kFrench + kSome;
     wrong.replace(wrong.find("print("), 6, "pritn(");
     write(wrong);
     EXPECT_TRUE(says(browser, "state", "^arrêté par une erreur$"));
     EXPECT_TRUE(says(browser, "to-mistake", "^Aller à l.erreur$"));
-    EXPECT_TRUE(shows(browser, "ni fonction ni variable"));
+    EXPECT_TRUE(shows(browser, "fonction ou variable inconnue"));
 
     write(kHead + kFirst);  // English from here on
     EXPECT_TRUE(shows(browser, "x is 20"));
@@ -154,12 +154,12 @@ TEST_F(preview_french, findings_and_what_is_submitted_are_reported_in_french) {
         << browser.evaluate("return document.getElementById('show-findings').innerText");
     browser.click("#show-findings");
     for (const char* words : {"Réponses manquantes", "gain \\(nombre\\)", "À corriger", "La question 1 est ouverte",
-                              "Contrôles de la leçon.: 0 sur 3 points"})
+                              "Vérifications de la leçon.: 0 sur 3 points"})
         EXPECT_TRUE(says(browser, "findings", words)) << words;
     expect_no_english(all_words(browser, "#findings"));
 
     browser.click("#show-hand-in");
-    EXPECT_TRUE(says(browser, "made", "dynlab fait le rapport à partir du script enregistré"));
+    EXPECT_TRUE(says(browser, "made", "dynlab crée le rapport à partir du script enregistré"));
     browser.click("#make-report");
     EXPECT_TRUE(says(browser, "made", "mine\\/report.pdf", 60));
     EXPECT_TRUE(browser.becomes_true("!document.getElementById('make-pack').disabled"));

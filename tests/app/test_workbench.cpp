@@ -397,7 +397,7 @@ TEST_F(workbench, speaks_french_where_the_script_does) {
     const std::string said = browser.evaluate("return " + reported);
     EXPECT_FALSE(std::regex_search(said, std::regex("\\b(the|is|of|error|with|samples|fit)\\b"))) << said;
     write("mine.lua", french + "\nprint(yy)\n");
-    EXPECT_TRUE(says(browser, "il n'y a ni fonction ni variable"));
+    EXPECT_TRUE(says(browser, "fonction ou variable inconnue"));
 }
 
 TEST_F(workbench, a_long_call_is_stopped_and_the_session_goes_on) {

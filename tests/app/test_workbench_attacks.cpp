@@ -226,7 +226,7 @@ TEST_F(workbench_attacks, what_is_refused_is_reported_in_the_script_s_language) 
             "unknown function or variable", "A report cannot be created from a script with an error: ");
     write("french.lua", "-- ---\n-- language: fr\n-- ---\n\n" + mistake);
     refuses("french.lua", "Ce script n'a pas encore le droit d'être exécuté\u202f: donnez-le-lui sur la page.",
-            "ni fonction ni variable", "Il n'y a pas de rapport d'un script qui contient une erreur");
+            "fonction ou variable inconnue", "Un rapport ne peut pas être fait à partir d'un script");
 }
 
 TEST_F(workbench_attacks, a_session_begun_here_is_asked_for_when_another_script_lies_there) {

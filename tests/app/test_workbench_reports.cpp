@@ -111,7 +111,7 @@ TEST_F(workbench_reports, the_language_turns_what_the_workbench_has_written_and_
               HasSubstr("-- @fig:step shows how it settles.\n"), Not(HasSubstr("Measured output"))));
     EXPECT_TRUE(
         browser.becomes_true("[...document.querySelectorAll('#steps option')].some((one) => "
-                             "one.textContent.includes('chacune avec D, I ou Z au choix'))"))
+                             "one.textContent.includes('chacune avec D, I et Z au choix'))"))
         << "what is said of the methods";
     turn_to("en");
     EXPECT_EQ(text_of("plant_session.lua"), english);

@@ -57,14 +57,14 @@ TEST(feedback, is_titled_after_the_group_and_not_after_the_folder_of_a_platform)
     EXPECT_THAT(
         feedback("Zoé Lefèvre_900001"),
         AllOf(StartsWith("# Retour pour group-03\n\nLeçon 99\\_small, points\u202F: **0 sur 2,5.**\n\nVotre script est "
-                         "allé jusqu'au bout.\n\n## Contrôles\n\n- **The number** – 0 sur 2,5"),
-              Not(HasSubstr("assignsubmission")), HasSubstr("dites à votre enseignant")));
+                         "allé jusqu'au bout.\n\n## Vérifications\n\n- **The number** – 0 sur 2,5"),
+              Not(HasSubstr("assignsubmission")), HasSubstr("écrivez à votre enseignant")));
     EXPECT_THAT(feedback("Ada Byron_900002"), StartsWith("# Retour pour Ada Byron\n\nLeçon"));
     EXPECT_THAT(feedback("Ida Rhodes_900003"),
                 StartsWith("# Feedback for group-04\n\nLesson 99\\_small: **2.5 of 2.5 points.**"));
     const std::string pdf =
         work.shell("pdftotext -layout out/results/Zo*/feedback.pdf - && pdfinfo out/results/Zo*/feedback.pdf").output;
-    EXPECT_THAT(pdf, AllOf(HasSubstr("Retour pour group-03"), HasSubstr("Contrôles"), HasSubstr("0 sur 2,5"),
+    EXPECT_THAT(pdf, AllOf(HasSubstr("Retour pour group-03"), HasSubstr("Vérifications"), HasSubstr("0 sur 2,5"),
                            ContainsRegex("Leçon 99_small, points *(\u202F)? *: 0 sur 2,5[.]"),
                            Not(HasSubstr("assignsubmission"))));
     const std::string english = work.shell("pdftotext -layout out/results/Ida*/feedback.pdf -").output;
@@ -104,7 +104,7 @@ TEST(feedback, of_late_work_reports_the_reason_in_its_language) {
         work.read("out/results/late/feedback.md"),
         HasSubstr(
             "points perdus\u202F: 0,62 (reçu le 2026-03-03 08:00 UTC, 1 j 14 h après la date limite du "
-            "2026-03-01 18:00 UTC\u202F; 12,5\u202F% des points sont retirés par jour entamé, au plus 50\u202F%)."));
+            "2026-03-01 18:00 UTC\u202F; la pénalité est de 12,5\u202F% des points par jour entamé, au plus 50\u202F%)."));
     EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr("1 d 14 h after the deadline of 2026-03-01 18:00 UTC"));
 }
 
@@ -130,7 +130,7 @@ TEST(feedback, of_a_submission_that_does_not_count_says_so) {
     EXPECT_THAT(feedback("Zoé Lefèvre_900001"), Not(HasSubstr("does not count")));
     EXPECT_THAT(
         feedback("Ida Rhodes_900003"),
-        HasSubstr("**Cette remise ne compte pas.** De plusieurs remises de votre part, la meilleure compte\u202F: "
+        HasSubstr("**Ce rendu ne compte pas.** De vos rendus, le meilleur compte\u202F: "
                   "Zoé Lefèvre (900001)."));
     EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr("3,Ida Rhodes,Zoé Lefèvre_900001_assign"));
 }
@@ -149,7 +149,7 @@ TEST(feedback, in_french_reports_what_stopped_a_script_in_french) {
     EXPECT_THAT(
         work.read("out/results/a/feedback.md"),
         AllOf(
-            HasSubstr("`analysis.lua:8`: il n'y a ni fonction ni variable «\u00A0maen\u00A0»\u202F; vouliez-vous dire"),
+            HasSubstr("`analysis.lua:8`: fonction ou variable inconnue\u202F: «\u00A0maen\u00A0»\u202F; vouliez-vous dire"),
             Not(HasSubstr("unknown function"))));
     EXPECT_THAT(work.shell("pdftotext out/results/a/feedback.pdf - | tr '\\n' ' '").output,
                 AllOf(HasSubstr("analysis.lua:8"), HasSubstr("damp(G, \"all\")")));

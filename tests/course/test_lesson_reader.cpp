@@ -64,9 +64,9 @@ TEST_F(lesson_reader, knows_what_authors_wrote_and_what_the_program_says) {
     const Message message = Message("The report cannot be built from a clean copy of the folder: {}",
                                     Message::verbatim("quuxes abound here"));
     EXPECT_EQ(LessonReader("fr", "91_first").text(message),
-              "Une copie propre du dossier ne donne aucun rapport\u202F: c'est deux");
+              "Le rapport ne peut pas être construit à partir d'une copie propre du dossier\u202F: c'est deux");
     EXPECT_EQ(LessonReader("fr").text(message),
-              "Une copie propre du dossier ne donne aucun rapport\u202F: quuxes abound here");
+              "Le rapport ne peut pas être construit à partir d'une copie propre du dossier\u202F: quuxes abound here");
     EXPECT_EQ(LessonReader("en", "91_first").text(message), message_text(message));
     for (const char* language : {"", "klingon", "../fr", "fr/../fr"})
         EXPECT_EQ(LessonReader(language, "91_first").text(message), message_text(message)) << language;
@@ -157,7 +157,7 @@ TEST(findings_in_french, are_printed_by_check_and_stay_english_for_programs) {
                 "est `x`{.value} et c'est ce que nous avons trouvé dans les données de la grue. TODO\n");
     const std::string reported = bench.dynlab({"check", "mine", "--document-only"}).output;
     EXPECT_THAT(reported, AllOf(HasSubstr("Règles enfreintes ("), HasSubstr("La section «\u00a0Procédé\u00a0» manque"),
-                                HasSubstr("-> Ajoutez un titre avec ces mots"), HasSubstr("Une note pour vous-même")));
+                                HasSubstr("-> Ajoutez ce titre et écrivez"), HasSubstr("Une note pour vous-même")));
     for (const char* word : {" the ", " is ", " are ", " was ", "Write", "Hints", "Rules", " pages of"})
         EXPECT_THAT(reported, Not(HasSubstr(word)));
     EXPECT_THAT(bench.dynlab({"check", "mine", "--document-only", "--json"}).output,
@@ -169,8 +169,8 @@ TEST(findings_in_french, of_a_script_that_stops_quote_its_error_in_french) {
     const Workbench bench;
     write_french_folder(bench, "local y = yy\n");
     EXPECT_THAT(bench.dynlab({"check", "mine", "--document-only"}).output,
-                AllOf(HasSubstr("Une copie propre du dossier ne donne aucun rapport"),
-                      HasSubstr("analysis.lua:5: il n'y a"), HasSubstr("variable")));
+                AllOf(HasSubstr("Le rapport ne peut pas être construit à partir d'une copie propre du dossier"),
+                      HasSubstr("analysis.lua:5: fonction ou"), HasSubstr("variable")));
 }
 
 TEST(feedback_in_french, has_the_authors_sentences_of_the_lesson) {
@@ -188,7 +188,7 @@ TEST(feedback_in_french, has_the_authors_sentences_of_the_lesson) {
     grade.checks.push_back(check);
     EXPECT_THAT(feedback_markdown(grade),
                 AllOf(HasSubstr("La pulsation de la charge quand le moteur est au repos** – 0 sur 2"),
-                      HasSubstr("L'écart à ce qui était attendu est de 3,25\u202F; on demandait 0,1 au plus. "
+                      HasSubstr("L'erreur est de 3,25\u202F; la plus grande erreur admise est de 0,1. "
                                 "C'est en Hz\u202F; on demande des rad/s."),
                       HasSubstr("Comptez les oscillations")));
 }

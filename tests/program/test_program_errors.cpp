@@ -63,7 +63,7 @@ TEST(program_errors, messages_go_to_the_program_that_asks_for_them) {
     ASSERT_EQ(said.complaints.size(), 1u);
     EXPECT_EQ("dynlab: " + message_text(said.complaints.front()) + "\n", result.error_output);
     EXPECT_THAT(message_text(said.complaints.front(), {catalog_of("fr")}),
-                HasSubstr("analysis.lua:2: il n'y a ni fonction ni variable"));
+                HasSubstr("analysis.lua:2: fonction ou variable inconnue"));
     EXPECT_TRUE(said.notes.empty());
     bench.shell("DYNLAB_MESSAGES=said \"$DYNLAB\" report nowhere");
     EXPECT_THAT(message_text(read_command_messages(bench.path("said")).all()), HasSubstr("nowhere"));

@@ -39,7 +39,7 @@ TEST(script_preprocess, stretches_are_kept_or_discarded) {
               "2\t20\t5\n");
     EXPECT_EQ(said("local k = d:discard{{11, 50}, {40, 90}} print(k.experiments, k.N)"), "2\t20\n");
     EXPECT_THAT(refused("d:keep{1, 10}"), HasSubstr("{{1, 200}, {350, 900}}"));
-    EXPECT_THAT(refused("d:discard{{1, 99}}"), HasSubstr("no samples would remain"));
+    EXPECT_THAT(refused("d:discard{{1, 99}}"), HasSubstr("no range of at least 2 samples would remain"));
     EXPECT_THAT(refused("d:keep{{90, 101}}"), HasSubstr("the data have samples 1 to 100"));
     EXPECT_THAT(refused("d:keep{{4, 7}, {1, 5}}"), HasSubstr("the ranges 1 to 5 and 4 to 7 overlap"));
     EXPECT_THAT(refused("iddata({1, 2}, {1, 2}, 1, {Tstart = 0/0})"), HasSubstr("'Tstart' must be a finite number"));

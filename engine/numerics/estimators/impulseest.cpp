@@ -82,7 +82,7 @@ void fit_plainly(const IdData& data, Index n, double count, RegressedResponse& e
     const LeastSquares fit = solve_least_squares(regression.Phi, regression.y);
     if (fit.rank < regression.Phi.cols() || fit.condition_number > 1e8)
         throw InvalidArgument(
-            "impulseest: the input is not persistently exciting enough to determine the {} samples of the impulse "
+            "impulseest: the input is not persistently exciting of order {}, the number of samples of the impulse "
             "response. Use the regularized estimate, use fewer lags, or resample the data to a lower rate first",
             regression.Phi.cols());
     estimate.response = fit.solution;

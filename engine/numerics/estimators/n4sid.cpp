@@ -89,8 +89,8 @@ void require_rich_inputs(const Matrix& R, const Sizes& sizes) {
     const Matrix inputs = R.topLeftCorner(f, f);
     if (solve_least_squares(inputs, Vector::Zero(f)).condition_number < kAmbiguousCondition) return;
     throw InvalidArgument(
-        "n4sid: the input is not persistently exciting enough to determine {} samples of its effect (a constant or a "
-        "few sines are not enough): excite the system with an input that changes more, or decrease {}",
+        "n4sid: the input is not persistently exciting for {} block rows (a constant or a few sines are not "
+        "sufficient). Excite the system with a richer input, such as prbs, or decrease {}",
         sizes.s, OptionName{"block_rows"});
 }
 

@@ -41,7 +41,9 @@ void check_outputs(const std::string& method, const IdData& data) {
     for (Index output = 0; output < data.output_count(); ++output)
         if (in_all_experiments(data, [&](const Experiment& e) { return is_constant(e.y.col(output)); }))
             throw InvalidArgument(data.output_count() == 1
-                                      ? Message("{}: the output never changes, so no dynamics can be estimated", method)
+                                      ? Message("{}: the output never changes, so no dynamics can be estimated. Use "
+                                                "data in which the output varies",
+                                                method)
                                       : Message("{}: output {} never changes, so no dynamics can be estimated. Remove "
                                                 "this output with data:select, or use data in which it varies",
                                                 method, output + 1));

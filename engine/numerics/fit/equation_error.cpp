@@ -23,9 +23,9 @@ void require_rich_inputs(const std::string& method, const MatrixView& R, const P
         const Matrix columns = R.middleCols(orders.b_start(input), orders.nb[input]);
         if (solve_least_squares(columns, Vector::Zero(R.rows())).condition_number < kAmbiguousCondition) continue;
         throw InvalidArgument(
-            "{}: the input {} is not persistently exciting enough to determine nb = {} (a constant or a single sine is "
-            "not enough). Excite the system with a richer input, such as a PRBS, or decrease nb",
-            method, data.input_names[input], plural(orders.nb[input], "{} coefficient", "{} coefficients"));
+            "{}: the input {} is not persistently exciting of order nb = {} (a constant or a single sine is not "
+            "sufficient). Excite the system with a richer input, such as a PRBS, or decrease nb",
+            method, data.input_names[input], orders.nb[input]);
     }
 }
 

@@ -55,8 +55,14 @@ IdData nonparametric_data(const std::string& caller, const IdData& data, Index m
         output_changes = output_changes || changes(experiment.y);
     }
     if (!input_changes)
-        throw InvalidArgument("{}: the input never changes, so it does not excite the dynamics", caller);
-    if (!output_changes) throw InvalidArgument("{}: the output never changes, so no dynamics can be estimated", caller);
+        throw InvalidArgument(
+            "{}: the input never changes, so it does not excite the dynamics. Use data with a varying input, for "
+            "instance from prbs",
+            caller);
+    if (!output_changes)
+        throw InvalidArgument(
+            "{}: the output never changes, so no dynamics can be estimated. Use data in which the output varies",
+            caller);
     return remove_means ? remove_mean(data) : data;
 }
 

@@ -67,7 +67,9 @@ IdData discard_segments(const IdData& data, const std::vector<Segment>& discarde
         next = segment.last + 1;
     }
     keep_until(data.sample_count());
-    if (kept.empty()) throw InvalidArgument("discard: no samples would remain");
+    if (kept.empty())
+        throw InvalidArgument("discard: no range of at least {} samples would remain. Specify smaller ranges",
+                              min_length);
     return keep_segments(data, kept);
 }
 

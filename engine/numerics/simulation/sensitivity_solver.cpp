@@ -234,8 +234,10 @@ void SensitivitySolver::break_down(const Interval& over, double t, double h) {
                                       names_[static_cast<std::size_t>(i)], stages_[0].at.values[i], states);
     Index fastest = 0;
     (stages_[0].at.values.array().abs() / size_.array().max(1e-300)).maxCoeff(&fastest);
-    throw SimulationBreakdown("At t = {}, the state {} becomes infinite: {}", t,
-                              names_[static_cast<std::size_t>(fastest)], states);
+    throw SimulationBreakdown(
+        "At t = {}, the state {} becomes infinite (last values: {}). Check the equations, or use other "
+        "parameter values",
+        t, names_[static_cast<std::size_t>(fastest)], states);
 }
 
 void SensitivitySolver::advance(double t_begin, double t_end, const double* u_begin, const double* u_end) {

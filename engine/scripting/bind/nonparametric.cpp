@@ -35,7 +35,9 @@ constexpr std::array kEtfeOptions = {
     option<&EtfeOptions::remove_mean>("remove_mean", kMeanRemoval), kConfidenceOption, kLabelsOption, kQuietEstimate};
 constexpr std::array kSpaOptions = {
     option<&SpaOptions::window>(
-        "window", about("length of the lag window in samples; 0 for the smaller of 30 and N/10 for N samples")),
+        "window",
+        about("length of the lag window in samples, from 2 to N - 1 for N samples; 0 for the smaller of 30 and "
+              "N/10")),
     option<&SpaOptions::w>("w", about("frequencies, at most pi/Ts; by default, 128 frequencies"), {.unit = "rad/s"}),
     option<&SpaOptions::remove_mean>("remove_mean", kMeanRemoval),
     kConfidenceOption,

@@ -58,8 +58,10 @@ constexpr std::array kLsimArguments = {
     ArgumentEntry{"G", ValueKind::kModel, about("model with at least as many poles as zeros")},
     ArgumentEntry{"u", ValueKind::kVector,
                   about("vector of N samples; for several inputs, a matrix with one column per input")},
-    ArgumentEntry{"t_or_Ts", ValueKind::kVector,
-                  about("sampling time in seconds, or a vector of N increasing instants, which may be irregular")}};
+    ArgumentEntry{
+        "t_or_Ts", ValueKind::kVector,
+        about("sampling time in seconds, or a vector of N increasing instants in seconds, which need not be equally "
+              "spaced")}};
 constexpr std::array kSvfArguments = {
     ArgumentEntry{"x", ValueKind::kVector, about("vector of N samples")},
     ArgumentEntry{"n", ValueKind::kCount, about("order of the filter, 1 to 50")},

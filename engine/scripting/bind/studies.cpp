@@ -39,7 +39,9 @@ constexpr OptionEntry kStudyOptions[] = {
         about("seed of the noise: run k = 0, 1, ... adds the numbers that `randn` returns after `rng(seed + k)`"),
         {.maximum = kMaxSeed}),
     option<&MonteCarloStudy::threads>("threads", about("number of threads; 0 for all cores")),
-    {"estimators", ValueKind::kTable, about("table of named estimators, each with its arguments after the data")}};
+    {"estimators", ValueKind::kTable,
+     about("table of estimators. The keys are labels. An entry contains the arguments that follow the data, or is a "
+           "function of the data")}};
 constexpr OptionTable kStudyTables[] = {kStudyOptions};
 
 MonteCarloEstimate estimate_in_study(const Fit& result) {

@@ -163,7 +163,7 @@ std::string StudyText::of(const ArxSelection& selection, const OrderChoice& choi
         lines += fmt::format("{} {:>4} {:>4} {:>4} {:>10} {:>11} {:>9} {:>9}", i == choice.place ? '*' : ' ', one.na,
                              one.nb, one.nk, one.parameters(), text(one.loss), fixed(one.aic, 4), fixed(one.bic, 4));
         if (one.validation_loss) lines += fmt::format(" {:>11}", text(*one.validation_loss));
-        if (!one.determined) lines += "  " + text(Message("not determined: the input is not exciting enough"));
+        if (!one.determined) lines += "  " + text(Message("not determined: the input is not persistently exciting"));
         lines += "\n";
     }
     return lines + text(choice.explanation) + "\n";

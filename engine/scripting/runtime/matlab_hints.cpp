@@ -265,7 +265,8 @@ Message matlab_syntax_hint(const std::string& line, const std::string& near) {
     if (first != std::string::npos && (code[first] == '%' || code[first] == '#')) return comment_form();
     if (has_assignment_condition(code)) return Message("to compare, write == instead of =");
     if (Message hint = operator_hint(code); !hint.empty()) return hint;
-    if (ends_with(code, "...") && near != ")") return Message("a statement can continue on the next line without ...");
+    if (ends_with(code, "...") && near != ")")
+        return Message("omit \"...\"; in Lua, a statement can continue on the next line");
     if (has_transpose(code)) return Message("the transpose is A:t(); a vector is already a column");
     if (Message hint = block_hint(code); !hint.empty()) return hint;
     if (Message hint = element_hint(code); !hint.empty()) return hint;

@@ -23,7 +23,7 @@ TEST(language, of_a_script_is_that_of_lint_and_its_errors) {
     const TemporaryFolder folder;
     const std::string french = script(folder, "french.lua", kFrench + std::string("prinnt(1)\n"));
     const std::string english = script(folder, "english.lua", "prinnt(1)\n");
-    EXPECT_THAT(command_line({"lint", french}).output, HasSubstr("il n'y a ni fonction ni variable «"));
+    EXPECT_THAT(command_line({"lint", french}).output, HasSubstr("fonction ou variable inconnue\u202F: «"));
     EXPECT_THAT(command_line({"lint", english}).output, HasSubstr("unknown function or variable 'prinnt'"));
     const std::string broken = script(folder, "broken.lua", "-- ---\n-- titel: T\n-- language: fr\n-- ---\n");
     EXPECT_THAT(command_line({"run", broken}).error_output, HasSubstr("la clé «"));

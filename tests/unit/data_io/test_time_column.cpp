@@ -288,7 +288,7 @@ TEST_F(time_column, clocks_of_several_columns_are_one_or_asked_for) {
     for (const std::string& text : {two_rates, both}) {
         const LoadedData data = table(text);
         ASSERT_TRUE(data.time.question);
-        EXPECT_THAT(message_text(*data.time.question), HasSubstr("Time_u, Time_y are two time columns"));
+        EXPECT_THAT(message_text(*data.time.question), HasSubstr("several time columns (Time_u, Time_y)"));
     }
     for (const std::string& text : {same, in_two_units}) {
         ASSERT_TRUE(table(text).time.clock) << text.substr(0, 60);

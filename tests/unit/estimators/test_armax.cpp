@@ -136,7 +136,7 @@ TEST(armax, refuses_what_it_cannot_fit) {  // oracle: definitions
     EXPECT_THAT(refusal(simulated_data(6, 0.1, 1), kOrders), HasSubstr("armax needs more equations"));
     IdData constant = simulated_data(100, 0.1, 1);
     constant.experiments[0].u.setOnes();
-    EXPECT_THAT(refusal(constant, kOrders), HasSubstr("armax: the input u1 is not persistently exciting enough"));
+    EXPECT_THAT(refusal(constant, kOrders), HasSubstr("armax: the input u1 is not persistently exciting of order nb"));
 }
 
 /// Oracle: the search over all samples from the truth. The first quarter of the second data set shows next to nothing.

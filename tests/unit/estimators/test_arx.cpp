@@ -147,10 +147,10 @@ TEST(arx, refuses_poor_inputs_and_is_right) {
         return thrown_message([&] { arx(IdData(Matrix(e), Matrix(u), 1), orders); });
     };
     EXPECT_THAT(refusal(zero, kSecond), HasSubstr("u1 is zero in all samples"));
-    EXPECT_THAT(refusal(constant, kSecond), HasSubstr("not persistently exciting enough to determine nb = 2"));
+    EXPECT_THAT(refusal(constant, kSecond), HasSubstr("not persistently exciting of order nb = 2"));
     EXPECT_EQ(refusal(constant, PolynomialOrders::arx(1, {1}, {1})), "");
     EXPECT_THAT(refusal(sine, PolynomialOrders::arx(1, {3}, {1})),
-                HasSubstr("not persistently exciting enough to determine nb = 3"));
+                HasSubstr("not persistently exciting of order nb = 3"));
     EXPECT_EQ(refusal(sine, PolynomialOrders::arx(1, {2}, {1})), "");
     // Justified: other coefficients explain the same data equally well.
     const auto [Phi, y] = equations(sine, e, PolynomialOrders::arx(1, {3}, {1}));

@@ -190,7 +190,7 @@ TEST(n4sid, refuses_what_it_cannot_use) {  // oracle: definitions
     EXPECT_EQ(refusal(data.range(1, 45), 3), "");
     EXPECT_THAT(refusal(data, 3, with(SubspaceWeighting::kMoesp, false, 60)), HasSubstr("too few"));
     EXPECT_THAT(refusal(IdData(y, Matrix(400, 0), 1), 2), HasSubstr("needs an input"));
-    EXPECT_THAT(refusal(IdData(y, Matrix::Ones(400, 1), 1), 2), HasSubstr("not persistently exciting enough"));
+    EXPECT_THAT(refusal(IdData(y, Matrix::Ones(400, 1), 1), 2), HasSubstr("not persistently exciting for"));
     EXPECT_THAT(refusal(IdData(y, u, Vector::LinSpaced(400, 0, 1)), 2), HasSubstr("regularly"));
 }
 

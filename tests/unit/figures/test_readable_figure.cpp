@@ -110,7 +110,7 @@ TEST(readable_figure, names_are_in_sentences_of_the_language) {
     const IdData data(Matrix(y), Matrix(u), 0.1);
     EXPECT_THAT(texts_of(residual_plot(residual_tests(data, {TransferFunction(Vector{{1.0}}, Vector{{1.0, 1.0}})}),
                                        data, 0.99)),
-                AllOf(Contains("autocorrélation de l'erreur de " + data.output_names[0]),
+                AllOf(Contains("autocorrélation des résidus de " + data.output_names[0]),
                       Contains("corrélation avec " + data.input_names[0]), Contains("borne à 99\u202F%"),
                       Contains("décalage (échantillons)")));
     const ModelOutput model{Message::verbatim("T = 0.5 s"), y, Vector::Constant(1, 93.26)};

@@ -42,7 +42,10 @@ TEST(segments, refuses_stretches_outside_the_record) {
         EXPECT_THROW(discard_segments(counted(10), {wrong}), InvalidArgument);
     }
     EXPECT_THROW(keep_segments(counted(10), {}), InvalidArgument);
-    EXPECT_THAT(thrown_message([] { discard_segments(counted(10), {{1, 9}}); }), HasSubstr("no samples would remain"));
+    EXPECT_THAT(thrown_message([] {
+                    discard_segments(counted(10), {{1, 9}});
+                }),
+                HasSubstr("no range of at least 2 samples would remain"));
     const IdData two = IdData::merge({counted(3), counted(3)});
     EXPECT_THAT(thrown_message([&] { keep_segments(two, {{1, 2}}); }), HasSubstr("select one with data:experiment(k)"));
 }

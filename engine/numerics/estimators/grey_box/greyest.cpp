@@ -356,7 +356,7 @@ void check_outputs(const IdData& data) {
     const Vector variations = output_variations(data);
     for (Index i = 0; i < variations.size(); ++i)
         if (variations[i] == 0)
-            throw InvalidArgument("greyest: output {} never changes, so no dynamics can be estimated",
+            throw InvalidArgument("greyest: output {} never changes. Use data in which this output varies",
                                   data.output_names[static_cast<std::size_t>(i)]);
 }
 

@@ -159,10 +159,10 @@ void describe(SindyFit& found, const IdData& data, const SindyOptions& options) 
         }
         found.equations.push_back(equation_text(state, library, Xi.col(i)));
         if ((Xi.col(i).array() == 0).all())
-            fit.warnings.push_back(
-                Message("No function of the library contributes to the rate of {}: lower the threshold, or use other "
-                        "functions.",
-                        state));
+            fit.warnings.push_back(Message(
+                "No function of the library contributes to the derivative of {}. Lower the threshold, or use other "
+                "functions.",
+                state));
     }
     fit.theta = Vector::Map(theta.data(), static_cast<Index>(theta.size()));
     if (fit.condition_number > kAmbiguousCondition)

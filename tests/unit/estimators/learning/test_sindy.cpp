@@ -182,7 +182,7 @@ TEST(sindy, warns_of_a_state_without_terms) {
     SindyOptions strict;
     strict.threshold = 0.9;
     EXPECT_THAT(message_text(sindy(data, far, strict).fit.full_message()),
-                HasSubstr("No function of the library contributes to the rate of h"));
+                HasSubstr("No function of the library contributes to the derivative of h"));
 }
 
 TEST(sindy, refuses_what_cannot_be_fitted) {
