@@ -95,7 +95,7 @@ TEST_F(live_page, reports_in_the_document_s_language_what_is_wrong_and_found) {
     EXPECT_EQ(changed["findings"]["checked"], findings["checked"]);
     const json issue = changed["findings"]["findings"][0];
     EXPECT_EQ(issue["what"], "La réponse «\u00A0gain\u00A0» (nombre) n'est pas donnée.");
-    EXPECT_EQ(issue["remedy"], "Donnez-la\u202F: answer(\"gain\", ...).");
+    EXPECT_EQ(issue["remedy"], "Rendez la réponse\u202F: answer(\"gain\", ...).");
     EXPECT_EQ(
         page.translated(Message("{}", MessageList{{kWrong, Message("{} (up to date)", "/tmp/a.pdf")}, Join::kLines})),
         std::string(kWrongInFrench) + "\n/tmp/a.pdf (à jour)");

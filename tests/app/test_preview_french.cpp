@@ -150,7 +150,7 @@ TEST_F(preview_french, findings_and_what_is_submitted_are_reported_in_french) {
     Browser browser;
     browser.open(preview.address());
     ASSERT_TRUE(shows(browser, "Quel gain"));
-    EXPECT_TRUE(says(browser, "show-findings", "1 réponse à donner, \\d règles? enfreintes?.*, 0 sur 3 points", 120))
+    EXPECT_TRUE(says(browser, "show-findings", "1 réponse manquante, \\d règles? enfreintes?.*, 0 sur 3 points", 120))
         << browser.evaluate("return document.getElementById('show-findings').innerText");
     browser.click("#show-findings");
     for (const char* words : {"Réponses manquantes", "gain \\(nombre\\)", "À corriger", "La question 1 est ouverte",
