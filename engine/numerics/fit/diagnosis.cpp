@@ -103,7 +103,7 @@ void check_sampled_data(const std::string& method, const IdData& data) {
 
 void check_sample_count(const std::string& method, Index samples, Index values) {
     if (samples > values) return;
-    throw InvalidArgument("{} needs more samples than the {} values it estimates, but the data have {}", method,
+    throw InvalidArgument("{} estimates {} and needs more samples than that, but the data have {}", method,
                           plural(values, "{} value", "{} values"), samples);
 }
 

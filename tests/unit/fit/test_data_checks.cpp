@@ -46,7 +46,8 @@ TEST(data_checks, of_transfer_functions) {  // oracle: the promises of the heade
 
 TEST(data_checks, of_numbers_of_samples) {  // oracle: the definition
     EXPECT_EQ(thrown_message([] { check_sample_count("method", 5, 4); }), "");
-    EXPECT_THAT(thrown_message([] { check_sample_count("method", 4, 4); }), HasSubstr("needs more samples than the 4"));
+    EXPECT_THAT(thrown_message([] { check_sample_count("method", 4, 4); }),
+                HasSubstr("method estimates 4 values and needs more samples than that, but the data have 4"));
 }
 
 TEST(data_checks, a_constant_input_teaches_through_a_transient_only) {  // oracle: an explained and a missed transient

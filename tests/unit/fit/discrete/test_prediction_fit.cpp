@@ -54,7 +54,7 @@ TEST(prediction_fit,
                     fit_prediction("armax", PredictionModel(armax_orders(), start, short_ones), start, 1, {kTruth},
                                    options);
                 }),
-                HasSubstr("armax needs more samples than the 3 values"));
+                HasSubstr("armax estimates 3 values and needs more samples than that"));
 }
 
 TEST(prediction_fit, a_start_for_the_noise) {  // oracle: the simulated noise; rounding is none
