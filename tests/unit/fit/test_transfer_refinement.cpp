@@ -237,7 +237,7 @@ TEST(transfer_refinement, refuses_what_cannot_be_estimated) {
     EXPECT_THAT(refine(data.range(1, 8), structure, kRest, theta), HasSubstr("at least 9 samples"));
     const IdData pieces = IdData::merge({data.range(1, 4), data.range(41, 44), data.range(21, 24)});
     EXPECT_THAT(refine(pieces, structure, {InitialState::kEstimate, true}, theta),
-                HasSubstr("more samples than the 12 values"));
+                HasSubstr("estimates 12 values and needs more samples than that"));
     EXPECT_THAT(
         refine(data, TransferStructure::grid(1, 2, Denominators::kCommon, {2}, {0}, {0.0}), kRest, Vector::Ones(4)),
         HasSubstr("2 inputs"));

@@ -80,7 +80,7 @@ TEST(refitted_output, refuses_what_it_cannot_repeat) {
     const IdData data = simulated_data(0.05);
     const FittedOutput fitted{TransferStructure::single(2, 0), {}, Vector{{4, 3, 2}}};
     EXPECT_THAT(thrown_message([&] { RefittedOutput(data.range(1, 3), fitted); }),
-                HasSubstr("more samples than the 3"));
+                HasSubstr("estimates 3 values and needs more samples than that"));
     EXPECT_THAT(thrown_message([&] { RefittedOutput(data, fitted.at(Vector::Constant(3, kNaN))); }),
                 HasSubstr("finite"));
     EXPECT_THAT(thrown_message([&] { fitted.place_of("Td"); }), HasSubstr("its parameters are a1, a2, b0"));
