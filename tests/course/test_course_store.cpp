@@ -138,7 +138,7 @@ TEST(course_store, refuses_bad_input_and_stays_untouched) {
     refused({"submit", "gruop-02.pdf"},
             "no group or student of the course is named \"gruop-02\" (the closest is group-02)");
     refused({"submit", "gruop-02.pdf", "--from", "group-9"}, "the group \"group-9\" does not exist");
-    refused({"submit", "gruop-02.pdf", "--assignment", "crame"}, "did you mean crane?");
+    refused({"submit", "gruop-02.pdf", "--assignment", "crame"}, "Did you mean crane?");
     refused({"assignment", "b", "--first", "2026-03-09 12:00", "--review", "2026-03-08 12:00", "--final",
              "2026-03-15 12:00"},
             "the deadline of the reviews (Sun 2026-03-08 12:00) must be after the deadline of the first version");

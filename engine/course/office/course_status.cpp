@@ -222,7 +222,7 @@ class Status {
         const auto only_pack = [&](const SubmittedParts& parts, const char* stage, const char* of) {
             if (parts.contains("pack") && !parts.contains(main_))
                 things.push_back(
-                    {"no-pdf", stage, "", fmt::format("the pack contains no PDF{}: ask for this file", of)});
+                    {"no-pdf", stage, "", fmt::format("the pack contains no PDF{}: ask the group for this file", of)});
         };
         const auto ask_for_readable = [&](const char* stage, const std::string& error_reason) {
             const char* const what = std::string_view(stage) == "final" ? "final version"
@@ -293,9 +293,10 @@ class Status {
         for (const ReviewPair& pair : pairs_) {
             if (pair.reviewer != group.id || pair.ended || pair.written) continue;
             if (pair.only_pack)
-                things.push_back({"no-pdf", "review", pair.report_pseudonym(),
-                                  fmt::format("the pack contains no PDF with its review of {}: ask for this file",
-                                              pair.report_pseudonym())});
+                things.push_back(
+                    {"no-pdf", "review", pair.report_pseudonym(),
+                     fmt::format("the pack contains no PDF with its review of {}: ask the group for this file",
+                                 pair.report_pseudonym())});
             else
                 ++open;
         }
