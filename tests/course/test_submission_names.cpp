@@ -309,7 +309,7 @@ TEST(submission_names, a_worksheet_says_whose_a_participant_s_number_is) {
                        "3,,10,\"Sunday, 1 March 2026, 9:00 AM\"\nParticipant 9001,Student 1,,10,-\n");
     const ChildResult blind = work.course({"submit", "all", "--at", "2026-03-01 10:00", "--no-checks"});
     EXPECT_EQ(blind.exit_code, 1);
-    EXPECT_THAT(blind.error_output, HasSubstr("Give the owner with"));
+    EXPECT_THAT(blind.error_output, HasSubstr("give the owner with"));
     const ChildResult reported =
         work.course({"submit", "all", "--at", "2026-03-01 10:00", "--no-checks", "--times", "sheet.csv"});
     EXPECT_EQ(reported.exit_code, 0) << reported.error_output;

@@ -63,10 +63,11 @@ print(max(abs(called.param - traced.param)) < 1e-5, max(abs(called.std - traced.
     EXPECT_THAT(text, HasSubstr("about a hundred times as long"));
     EXPECT_THAT(text, HasSubstr("where(c, a, b), which returns a if c > 0"));
     EXPECT_THAT(text, HasSubstr("true\ttrue\n"));
-    EXPECT_THAT(printed(kDataSet + R"(
-local m = idgrey(function(t, x, u, p) return {x[2], p.b*u - p.a2*math.sin(x[1]) - p.a1*x[2]} end, names, {states = 2})
-)"),
-                HasSubstr("math.sin accepts only numbers, so write sin(...)"));
+    for (const std::string name : {"sin", "cos", "tan", "atan", "exp", "log", "sqrt", "abs"}) {
+        EXPECT_THAT(printed(kDataSet + "local m = idgrey(function(t, x, u, p) return {x[2], p.b*u - p.a2*math." + name +
+                            "(x[1]) - p.a1*x[2]} end, names, {states = 2})"),
+                    HasSubstr("math." + name + " accepts only numbers, so write " + name + "(...)"));
+    }
     // A decision that Lua makes in silence: == of two kinds of values is false.
     EXPECT_THAT(printed(kDataSet + R"(
 local m = idgrey(function(t, x, u, p)

@@ -58,8 +58,8 @@ Matrices<Value> read_matrices(lua_State* L, Index n, const Read& read) {
 /// Lua's own mathematics takes numbers alone: the message says what to write in its place.
 Message with_remedy(const Message& message) {
     static const RE2 kOfMath(R"(bad argument #\d+ to '(\w+)' \(number expected, got)", RE2::Latin1);
-    static const std::set<std::string> kFollowed = {"sin", "cos", "tan", "Sine (radians)", "exp", "log", "sqrt",
-                                                    "abs", "max", "min"};
+    static const std::set<std::string> kFollowed = {"sin", "cos",  "tan", "atan", "exp",
+                                                    "log", "sqrt", "abs", "max",  "min"};
     std::string name;
     if (!RE2::PartialMatch(message_text(message), kOfMath, &name)) return message;
     if (kFollowed.contains(name))
