@@ -11,7 +11,7 @@ addWords({
   lost: tr("dynlab does not respond. Restart dynlab and open the new address; your text is still here"),
   asked: tr("This document runs programs. Run it?"),
   askedAbout: tr("The text of the document is shown below. Answer yes only if you trust its source."),
-  askedAboutOwn: tr("The command \"dynlab new\" created the folder of this document on this computer. The text of the document is shown below."),
+  askedAboutOwn: tr("dynlab new created the folder of this document on this computer. The text of the document is shown below."),
   notPrinted: tr("{}: code that is not printed"), asInScript: tr("Reset"),
 
   // The editor
