@@ -141,7 +141,7 @@ report.value("steps_scaled", scaled.iterations, "%d")
 -- direction than in the other. If $x$ is divided by its standard deviation, the curvature is the same in all directions, and `steps_scaled`{.value}
 -- steps are enough. For two parameters, gradient descent is slow. For models with millions of parameters, however, no computer can store the matrix
 -- $\Phi^T\Phi$. Only gradient-based methods are then feasible (stochastic gradient descent, conjugate gradients, L-BFGS), and scaling is equally
--- important. The line decreases by `a_decade`{.value} s per decade: $\hat a =$ `a`{.value} s/year with a standard error of `a_std`{.value} s/year,
+-- important. The line decreases by `a_decade`{.value} s per decade: $\hat a =$ `a`{.value}\ s/year with a standard error of `a_std`{.value}\ s/year,
 -- and $\hat b =$ `b`{.value} s in the mean year `center`{.value}.
 -- END SOLUTION
 --

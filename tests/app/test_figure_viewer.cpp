@@ -76,9 +76,10 @@ TEST(figure_viewer, speaks_the_language_of_the_browser) {
 
 /// A page needs nothing of a language but its catalog.
 TEST(figure_viewer, speaks_a_language_that_came_with_a_catalog) {
-    add_language("eo",
-                 "msgctxt \"decimal sign\"\nmsgid \".\"\nmsgstr \",\"\n\nmsgid \"Figures\"\nmsgstr "
-                 "\"Figuroj\"\n\nmsgid \"no figures yet; enter, for example, {}\"\nmsgstr \"tajpu {1}: ankoraŭ neniu\"\n");
+    add_language(
+        "eo",
+        "msgctxt \"decimal sign\"\nmsgid \".\"\nmsgstr \",\"\n\nmsgid \"Figures\"\nmsgstr "
+        "\"Figuroj\"\n\nmsgid \"no figures yet; enter, for example, {}\"\nmsgstr \"tajpu {1}: ankoraŭ neniu\"\n");
     FigureViewer viewer;
     Browser browser;
     browser.devtools("Network.setUserAgentOverride", R"({"userAgent": "Chromium", "acceptLanguage": "eo-XX"})");

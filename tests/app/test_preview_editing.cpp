@@ -358,7 +358,8 @@ TEST_F(preview_editing, findings_open_answers_and_the_pdf_come_by_themselves) {
     const Preview preview(folder.path());
     Browser browser;
     browser.open(preview.address());
-    EXPECT_TRUE(browser.becomes_true("document.getElementById('show-findings').innerText.includes('1 answer missing')"));
+    EXPECT_TRUE(
+        browser.becomes_true("document.getElementById('show-findings').innerText.includes('1 answer missing')"));
     EXPECT_TRUE(browser.becomes_true("document.getElementById('view').classList.contains('ready')", 120));
     EXPECT_TRUE(
         browser.becomes_true("/rules? violated/.test(document.getElementById('show-findings').innerText)", 120));

@@ -47,10 +47,12 @@ TEST_F(preview_memory, is_whole_at_once_when_it_is_opened_again) {
     ASSERT_TRUE(browser.becomes_true(whole));
     EXPECT_TRUE(browser.becomes_true("document.querySelectorAll('[data-state=recalled]').length > 2"));
     EXPECT_EQ(browser.evaluate(pieces), first);
-    EXPECT_TRUE(browser.becomes_true("document.getElementById('state').innerText.startsWith('results of the previous run')"));
-    EXPECT_TRUE(browser.becomes_true(
-        "!document.getElementById('stop').hidden && document.getElementById('state').innerText === 'results of the previous "
-        "run; running again' && document.querySelectorAll('[data-state=recalled]').length > 2"));
+    EXPECT_TRUE(
+        browser.becomes_true("document.getElementById('state').innerText.startsWith('results of the previous run')"));
+    EXPECT_TRUE(
+        browser.becomes_true("!document.getElementById('stop').hidden && document.getElementById('state').innerText "
+                             "=== 'results of the previous "
+                             "run; running again' && document.querySelectorAll('[data-state=recalled]').length > 2"));
     browser.evaluate("for (const node of document.querySelectorAll('.piece')) node.seen = true");
     preview.go_on();
     EXPECT_TRUE(browser.becomes_true(at_rest));
@@ -84,7 +86,8 @@ TEST_F(preview_memory, cached_pages_do_not_hide_changes) {
         preview.hold();
         Browser browser;
         browser.open(preview.address());
-        ASSERT_TRUE(browser.becomes_true("document.getElementById('state').innerText.includes('results of the previous run')"));
+        ASSERT_TRUE(
+            browser.becomes_true("document.getElementById('state').innerText.includes('results of the previous run')"));
         written("21");
         preview.go_on();
         EXPECT_TRUE(shows(browser, "x is 21"));

@@ -227,8 +227,8 @@ TEST_F(corrections, a_penalty_of_half_the_points_waits_for_the_instructor) {
     course_.bench().write("s.csv", "reviewer,report,data\ninstructor,group-01,5\n");
     done({"scores", "crane", "s.csv"});
     const auto marks = [&] { return done({"marks", "crane", "--at", "2026-03-04 12:00"}); };
-    EXPECT_THAT(marks(),
-                AllOf(HasSubstr("100.0"), HasSubstr("60 % for a first version late by 1 d 23 h is not deducted until")));
+    EXPECT_THAT(marks(), AllOf(HasSubstr("100.0"),
+                               HasSubstr("60 % for a first version late by 1 d 23 h is not deducted until")));
     const ChildResult confirmed =
         course_.submit_file("group-01.pdf", small_pdf("one"), "2026-03-04 11:00", {"--no-checks", "--accept-late"});
     EXPECT_EQ(confirmed.exit_code, 0) << confirmed.error_output;

@@ -200,8 +200,9 @@ TEST(course_marks, what_is_late_or_missing_costs_what_the_course_says) {
                 AllOf(ContainsRegex("group-02 .* 60\\.0 +63\\.3"), HasSubstr("30 % deducted for 3 missing reviews")));
     EXPECT_THAT(
         all,
-        AllOf(ContainsRegex("group-01 .* 55\\.0 "), ContainsRegex("group-02 .* 45\\.0 "),
-              HasSubstr("10 % deducted for a first version late by 1 d 1 h, 15 % deducted for a missing final version")));
+        AllOf(
+            ContainsRegex("group-01 .* 55\\.0 "), ContainsRegex("group-02 .* 45\\.0 "),
+            HasSubstr("10 % deducted for a first version late by 1 d 1 h, 15 % deducted for a missing final version")));
     EXPECT_THAT(bench.course({"export", "crane"}).output, HasSubstr("15 % deducted for a missing final version"));
 }
 

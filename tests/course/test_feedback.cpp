@@ -100,11 +100,10 @@ TEST(feedback, of_late_work_reports_the_reason_in_its_language) {
     work.write("deadlines.csv", "submission,deadline,percent_per_day,most_percent\n*,2026-03-01 18:00,12.5,50\n");
     const ChildResult graded = bench.grade({"--deadlines", "deadlines.csv", "--timezone", "UTC"});
     ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
-    EXPECT_THAT(
-        work.read("out/results/late/feedback.md"),
-        HasSubstr(
-            "points perdus\u202F: 0,62 (reçu le 2026-03-03 08:00 UTC, 1 j 14 h après la date limite du "
-            "2026-03-01 18:00 UTC\u202F; la pénalité est de 12,5\u202F% des points par jour entamé, au plus 50\u202F%)."));
+    EXPECT_THAT(work.read("out/results/late/feedback.md"),
+                HasSubstr("points perdus\u202F: 0,62 (reçu le 2026-03-03 08:00 UTC, 1 j 14 h après la date limite du "
+                          "2026-03-01 18:00 UTC\u202F; la pénalité est de 12,5\u202F% des points par jour entamé, au "
+                          "plus 50\u202F%)."));
     EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr("1 d 14 h after the deadline of 2026-03-01 18:00 UTC"));
 }
 
@@ -128,10 +127,9 @@ TEST(feedback, of_a_submission_that_does_not_count_says_so) {
                "Ida Rhodes_900003_assignsubmission_file_,x,0,copied\n");
     EXPECT_THAT(bench.grade({"--roster", "roster.csv"}).output, HasSubstr("0 graded now, 2 unchanged"));
     EXPECT_THAT(feedback("Zoé Lefèvre_900001"), Not(HasSubstr("does not count")));
-    EXPECT_THAT(
-        feedback("Ida Rhodes_900003"),
-        HasSubstr("**Ce rendu ne compte pas.** De vos rendus, le meilleur compte\u202F: "
-                  "Zoé Lefèvre (900001)."));
+    EXPECT_THAT(feedback("Ida Rhodes_900003"),
+                HasSubstr("**Ce rendu ne compte pas.** De vos rendus, le meilleur compte\u202F: "
+                          "Zoé Lefèvre (900001)."));
     EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr("3,Ida Rhodes,Zoé Lefèvre_900001_assign"));
 }
 
@@ -148,9 +146,9 @@ TEST(feedback, in_french_reports_what_stopped_a_script_in_french) {
     ASSERT_EQ(run.exit_code, 0) << run.error_output;
     EXPECT_THAT(
         work.read("out/results/a/feedback.md"),
-        AllOf(
-            HasSubstr("`analysis.lua:8`: fonction ou variable inconnue\u202F: «\u00A0maen\u00A0»\u202F; vouliez-vous dire"),
-            Not(HasSubstr("unknown function"))));
+        AllOf(HasSubstr(
+                  "`analysis.lua:8`: fonction ou variable inconnue\u202F: «\u00A0maen\u00A0»\u202F; vouliez-vous dire"),
+              Not(HasSubstr("unknown function"))));
     EXPECT_THAT(work.shell("pdftotext out/results/a/feedback.pdf - | tr '\\n' ' '").output,
                 AllOf(HasSubstr("analysis.lua:8"), HasSubstr("damp(G, \"all\")")));
 }

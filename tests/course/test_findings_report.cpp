@@ -47,7 +47,8 @@ TEST(findings_report, answers_and_checks_of_the_lesson_are_counted_by_themselves
     result.findings.push_back({"answer-missing", Severity::kRule, 0, "", Message("Missing."), Message("Give it.")});
     result.findings.push_back({"check-failed", Severity::kHint, 0, "", Message("Lost."), Message("Look.")});
     const std::string words = issues_as_text(result, false);
-    for (const char* const title : {"Missing answers (1)", "Rules violated (3)", "Hints (1)", "Checks of the lesson (1)"})
+    for (const char* const title :
+         {"Missing answers (1)", "Rules violated (3)", "Hints (1)", "Checks of the lesson (1)"})
         EXPECT_THAT(words, HasSubstr(std::string("\n") + title + "\n"));
 }
 

@@ -174,9 +174,9 @@ TEST(grading, reports_what_stopped_the_worked_solution_before_what_is_missing) {
                        "if math.abs(mean(y:range(300, #y)) - 10) > 0.05 then while true do end end\n"
                        "answer('x', 42)\n");
     other.submit_file("a", kSolution);
-    EXPECT_THAT(
-        other.grade({"--timeout", "2"}).error_output,
-        ContainsRegex("is left ungraded, because the run of the reference solution on suspension stopped: .*\\. The check reports: "));
+    EXPECT_THAT(other.grade({"--timeout", "2"}).error_output,
+                ContainsRegex("is left ungraded, because the run of the reference solution on suspension stopped: "
+                              ".*\\. The check reports: "));
 }
 
 // oracle: the rule that a broken check costs no student points

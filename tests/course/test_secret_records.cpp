@@ -48,11 +48,9 @@ TEST(secret_records, a_data_set_that_was_submitted_names_no_files_of_others) {
         for (const auto& [name, place] : places) {
             const std::string error_reason = GradingBench::error_reason(bench.result(name));
             EXPECT_THAT(error_reason, Not(HasSubstr("dynlab read"))) << level;
-            EXPECT_THAT(
-                error_reason,
-                HasSubstr(
-                    "mine/SOURCE.md: \"Course file:\" must be followed by names of files in the folder of the data set, but the path \"" +
-                    place + "\" was given"))
+            EXPECT_THAT(error_reason, HasSubstr("mine/SOURCE.md: \"Course file:\" must be followed by names of files "
+                                                "in the folder of the data set, but the path \"" +
+                                                place + "\" was given"))
                 << level;
         }
     }

@@ -151,9 +151,11 @@ TEST(unusual_submissions, what_canvas_calls_late_is_reported_where_the_time_does
     reported(bench.course({"import", "roster.csv"}));
     bench.bench().write("in/student1_LATE_31_77_report.pdf", small_pdf("1"));
     bench.bench().write("in/student2_32_78_report.pdf", small_pdf("2"));
-    EXPECT_THAT(reported(bench.course({"submit", "in", "--at", kInTime, "--no-checks", "--isolation", bench.level()})),
-                AllOf(ContainsRegex("group-01 +report +v1 +in time +marked late by the platform: enter the time of receipt with --times"),
-                      ContainsRegex("group-02 +report +v1 +in time *\n")));
+    EXPECT_THAT(
+        reported(bench.course({"submit", "in", "--at", kInTime, "--no-checks", "--isolation", bench.level()})),
+        AllOf(ContainsRegex(
+                  "group-01 +report +v1 +in time +marked late by the platform: enter the time of receipt with --times"),
+              ContainsRegex("group-02 +report +v1 +in time *\n")));
 }
 
 }  // namespace test_unusual_submissions

@@ -108,8 +108,9 @@ TEST_F(letterheads, latex_of_a_course_finds_the_pictures_beside_it_and_messages_
 
 TEST_F(letterheads, that_name_no_picture_beside_them_are_refused) {
     for (const char* name : {"../logo.png", "/etc/logo.png", "logo.gif", ".logo.png"})
-        EXPECT_THAT(refusal(std::string("---\nlogo: ") + name + "\n---\nText\n", "out.pdf"),
-                    HasSubstr("report.md:2: \"logo\" must be the name of a .png, .jpg or .pdf file in the same folder"));
+        EXPECT_THAT(
+            refusal(std::string("---\nlogo: ") + name + "\n---\nText\n", "out.pdf"),
+            HasSubstr("report.md:2: \"logo\" must be the name of a .png, .jpg or .pdf file in the same folder"));
     EXPECT_THAT(refusal("---\nlogo: logo.png\n---\nText\n", "out.pdf"),
                 HasSubstr("report.md: the picture \"logo.png\" is not in the folder of this file"));
 }

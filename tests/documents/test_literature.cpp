@@ -147,7 +147,8 @@ TEST_F(literature, a_bibliography_that_cannot_be_read_is_reported) {
                 HasSubstr("none.bib: the bibliography file is missing"));
     EXPECT_THAT(refusal("---\nbibliography: ../books.bib\n---\nText\n"),
                 HasSubstr("report.md:2: \"bibliography\" must be"));
-    EXPECT_THAT(refusal("---\nbibliography: /etc/passwd\n---\nText\n"), HasSubstr("report.md:2: \"bibliography\" must be"));
+    EXPECT_THAT(refusal("---\nbibliography: /etc/passwd\n---\nText\n"),
+                HasSubstr("report.md:2: \"bibliography\" must be"));
     write("books.bib", "@book{ljung1999, title={never closed\n");
     EXPECT_THAT(refusal(header_ + "As in [@ljung1999].\n"), HasSubstr("the bibliography cannot be read: (line"));
 }

@@ -198,9 +198,10 @@ TEST_F(names_in_all_scripts, two_runs_give_the_same_bytes_with_and_without_cache
 TEST_F(names_in_all_scripts, only_a_letter_that_no_font_has_is_replaced) {
     const auto pdf = make("Дмитрий \uE000 and \uE001 é\n", "out.pdf");
     EXPECT_THAT(text_of(pdf), HasSubstr("Дмитрий ? and ? é"));
-    EXPECT_THAT(notes(),
-                HasSubstr("report.md:1: no installed font has the following letters, which are printed as \"?\": \uE000 "
-                          "(U+E000, line 1), \uE001 (U+E001, line 1). To add fonts, run sudo apt install fonts-noto"));
+    EXPECT_THAT(
+        notes(),
+        HasSubstr("report.md:1: no installed font has the following letters, which are printed as \"?\": \uE000 "
+                  "(U+E000, line 1), \uE001 (U+E001, line 1). To add fonts, run sudo apt install fonts-noto"));
 }
 
 // oracle: a command ends before a letter beyond ASCII; fonts of formulas have Greek letters and no ideographs
@@ -220,10 +221,11 @@ TEST_F(names_in_all_scripts, without_lualatex_single_letters_are_replaced_and_th
     const auto pdf = make("Élise, Björn – Дя, o\u0323\u0300\n", "out.pdf");
     EXPECT_EQ(producer_of(pdf), "pdfTeX");
     EXPECT_THAT(text_of(pdf), HasSubstr("Élise, Björn – ??, ọ"));
-    EXPECT_EQ(notes(),
-              "report.md:1: LuaLaTeX is not installed, and pdflatex cannot print the following letters, which are printed as "
-              "\"?\": \u25CC\u0300 (U+0300, line 1), Д (U+0414, line 1), я (U+044F, line 1). To print them, run sudo "
-              "apt install texlive-luatex fonts-noto-core fonts-noto-cjk\n");
+    EXPECT_EQ(
+        notes(),
+        "report.md:1: LuaLaTeX is not installed, and pdflatex cannot print the following letters, which are printed as "
+        "\"?\": \u25CC\u0300 (U+0300, line 1), Д (U+0414, line 1), я (U+044F, line 1). To print them, run sudo "
+        "apt install texlive-luatex fonts-noto-core fonts-noto-cjk\n");
 }
 
 TEST_F(names_in_all_scripts, slides_formulas_tables_and_code_are_set_too) {

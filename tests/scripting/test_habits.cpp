@@ -31,7 +31,8 @@ TEST(habits, are_answered_with_the_remedy) {
         {"local x = vector{1, 2}\nx(3) = 5", "write an element as x[3]"},
         {"A(1, 2) = 5", "write an element of a matrix as A[{1, 2}]"},
         {"x = {}\nx(end+1) = 3", "the last element is x[#x]"},
-        {"x = vector{}\nx[1] = 2", "v has 0 elements, and its length is fixed. Use zeros(n) to create a vector of length n"},
+        {"x = vector{}\nx[1] = 2",
+         "v has 0 elements, and its length is fixed. Use zeros(n) to create a vector of length n"},
         {"x = vector{1}\nx[2] = 2", "v has 1 element, and its length"},
         {"local mag, ph, w = bode(tf({1}, {1, 1}))\nprint(mag[1])", "bode_values(G, w)"},
         // calls

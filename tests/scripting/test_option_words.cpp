@@ -40,7 +40,7 @@ TEST(option_words, errors_name_the_options_of_scripts) {
               "option 'InitialState' must be one of \"none\", \"steady\", \"auto\", but \"estimate\" was given"},
              {"n4sid(d, 3, {Weighting = 'moesp'})", "option 'Weighting' must be one of \"MOESP\", \"N4SID\", \"CVA\""},
              {"procsrivc(d, 'P1I', {InitialState = 'estimate', Offset = 'estimate'})",
-              "with InitialState \"estimate\""},
+              "with InitialState = \"estimate\""},
              {"srivc(d, {1, 2, 0}, {Tol = 0})", "Tol must be positive, but is 0"},
              {"coe(d, {1, 2, 0}, {Fixed = {a3 = 1}})",
               "Fixed: the model has no parameter a3; its parameters are a1, a2, b0"},

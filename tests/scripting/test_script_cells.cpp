@@ -220,9 +220,10 @@ TEST(script_cells, show_curves_as_described) {
     EXPECT_EQ(test::error_of("plot({1, 2}, {1, 2}, '--')"),
               "lesson.lua:1: plot: a string is the name of the curve; for the style \"--\" use {style = \"points\"} or "
               "{dash = 1}");
-    EXPECT_EQ(test::error_of("save(plot({1, 2}, {1, 2}), '/etc/x.pdf')"),
-              "lesson.lua:1: save: '/etc/x.pdf' is outside the script's folder and the output folder; scripts can write "
-              "only to these folders and their subfolders");
+    EXPECT_EQ(
+        test::error_of("save(plot({1, 2}, {1, 2}), '/etc/x.pdf')"),
+        "lesson.lua:1: save: '/etc/x.pdf' is outside the script's folder and the output folder; scripts can write "
+        "only to these folders and their subfolders");
 }
 
 }  // namespace test_script_cells

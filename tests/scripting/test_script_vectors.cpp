@@ -104,9 +104,10 @@ TEST(script_vectors, give_and_take_elements) {
               "lesson.lua:2: v[0] does not exist: v has the elements 1 to 3");
     EXPECT_EQ(error_of("local v = vector{1, 2, 3}\nprint(v[1.5])"),
               "lesson.lua:2: v[1.5]: the index of an element must be a whole number from 1 to 3");
-    EXPECT_EQ(error_of("local v = vector{1, 2, 3}\nv[4] = 1"),
-              "lesson.lua:2: v[4] does not exist: v has 3 elements, and its length is fixed. Use zeros(n) to create a vector "
-              "of length n, or vector{v, x} to append x to v");
+    EXPECT_EQ(
+        error_of("local v = vector{1, 2, 3}\nv[4] = 1"),
+        "lesson.lua:2: v[4] does not exist: v has 3 elements, and its length is fixed. Use zeros(n) to create a vector "
+        "of length n, or vector{v, x} to append x to v");
     EXPECT_EQ(error_of("local v = vector{1, 2, 3}\nv:range(2, 4)"),
               "lesson.lua:2: range: the elements 2 to 4 do not exist: v has the elements 1 to 3");
     EXPECT_EQ(error_of("local s = 'v = ' .. vector{1}"),

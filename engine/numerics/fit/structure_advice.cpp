@@ -23,10 +23,9 @@ namespace {
 constexpr Index kLookedAt = 3000, kFitted = 100'000;  // samples
 constexpr double kStrongEvidence = 10;                // BIC
 constexpr double kHalfPoint = 0.5, kFairShare = 0.2, kLeastPoints = 0.05;
-constexpr double kRidge = 1e-9;     // of a sum of squares of sensitivities
-constexpr double kFastestPole = 2;  // per sample: faster ones are as good as none
-constexpr double kLargestCorrelation = 0.999;
-constexpr double kLeastSquares = 1e-300;  // keeps logarithms finite without errors
+constexpr double kRidge = 1e-9;                                        // of a sum of squares of sensitivities
+constexpr double kFastestPole = 2;                                     // per sample: faster ones are as good as none
+constexpr double kLargestCorrelation = 0.999, kLeastSquares = 1e-300;  // the second keeps logarithms finite
 
 /// How well a model explains one output.
 struct Explanation {

@@ -16,7 +16,7 @@ namespace dynlab::inline numerics {
 /// map of each complete stretch determines their initial states, then from these states. The maps of their steps are
 /// also computed side by side, so that only the state depends on the previous step. The maps are computed mode by mode
 /// if the modes are distinct and the system starts at rest (eight_modes.h), otherwise by power series (eight_steps.h).
-/// The filter does not check its arguments: the caller must provide sizes that agree and rising instants.
+/// The filter refuses nothing: the caller must provide sizes that agree and rising instants.
 class IrregularFilter {
   public:
     IrregularFilter(const Matrix& A, const Vector& B, Matrix C, Vector D, Hold hold, double delay = 0);

@@ -13,7 +13,7 @@ using DataIssues = std::vector<DataIssue>;
 /// They are replaced in `fit.data`, so that they disturb no later test. Nothing where the model explains too little.
 void find_error_outliers(FittedData& fit, const std::function<bool()>& cancel, DataIssues& findings);
 
-/// "drift" (a straight line makes up most of it) and "random_walk": the error wanders (advice_record.h), and its mean
+/// "drift" (a straight line makes up most of it) and "random_walk": the error wanders (fitted_data.h), and its mean
 /// over a twentieth of the data varies by more than 8 and 12 % of the output's standard deviation. The slow part is
 /// subtracted from `fit.data`.
 void find_disturbance(FittedData& fit, DataIssues& findings);

@@ -87,7 +87,7 @@ QuadraticForm quadratic_form(const Vector& r, const Matrix& P, double N, double 
 
 Message lag_text(Index lag, const IdData& data) {
     if (!data.regular()) return Message("lag {}", lag);
-    const Message time = Message("{} {}", significant(static_cast<double>(lag) * data.Ts, 3), data.time_unit);
+    const Message time = Message("{}\u202F{}", significant(static_cast<double>(lag) * data.Ts, 3), data.time_unit);
     return Message("lag {}, {}", lag, time);
 }
 

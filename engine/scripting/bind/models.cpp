@@ -43,9 +43,10 @@ constexpr OptionTable kTfTables[] = {kTfOptions}, kIdprocTables[] = {kIdprocOpti
 constexpr std::array kModelAlone = {kModelArgument};
 constexpr ArgumentEntry kTfArguments[] = {
     {"num", ValueKind::kVector,
-     about("coefficients of the numerator, highest power first; or, as the only argument, a table with the fields num "
-           "and den, and optionally Ts and IODelay. `load` returns this table for a model that `save_mat` or "
-           "`save_json` wrote")},
+     about(
+         "coefficients of the numerator, highest power first; or, as the only argument, a table with the fields `num` "
+         "and `den`, and optionally `Ts` and `IODelay`. `load` returns this table for a model that `save_mat` or "
+         "`save_json` wrote")},
     {"den", ValueKind::kVector, about("coefficients of the denominator, highest power first")}};
 constexpr ArgumentEntry kIdprocArguments[] = {
     {"structure", ValueKind::kProcess, about("name of the structure, such as \"P1\", \"P2U\", \"P1D\" or \"P2DU\"")}};

@@ -94,7 +94,7 @@ std::vector<std::string> words_of(const std::string& text) {
 }
 
 struct Found {
-    int rank;  ///< 0 in the name, 1 in the summary, 2 in the page
+    int rank;  ///< 0 in the name, 1 in the summary, 2 whole words of the page, 3 beginnings of its words
     std::string name, summary;
 };
 
@@ -108,13 +108,16 @@ std::vector<Found> pages_about(const std::string& asked, const FunctionList& fun
             return contains_word(one.names, name) && begin_words(small, words_of(std::string(one.term)));
         });
     };
-    const auto look = [&](const std::string& name, const std::string& summary, std::string_view text) {
-        const int rank = is_meant(name)                                            ? 0
-                         : begin_words(in_small_letters(name), words)              ? 0
-                         : begin_words(in_small_letters(summary), words)           ? 1
-                         : begin_words(in_small_letters(std::string(text)), words) ? 2
-                                                                                   : 3;
-        if (rank < 3) found.push_back({rank, name, summary});
+    const auto look = [&](const std::string& name, const std::string& summary, std::string_view page) {
+        const std::string text = in_small_letters(std::string(page));
+        const auto is_whole = [&](const std::string& word) { return contains_word(text, word); };
+        const int rank = is_meant(name)                                  ? 0
+                         : begin_words(in_small_letters(name), words)    ? 0
+                         : begin_words(in_small_letters(summary), words) ? 1
+                         : std::ranges::all_of(words, is_whole)          ? 2
+                         : begin_words(text, words)                      ? 3
+                                                                         : 4;
+        if (rank < 4) found.push_back({rank, name, summary});
     };
     for (const FunctionEntry* entry : functions) {
         const auto page = find_help_page(entry->name);

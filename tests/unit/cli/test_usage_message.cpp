@@ -26,8 +26,9 @@ TEST(usage_message, of_a_misspelt_command_or_option_suggests_the_nearest) {
                        "dynlab: dynlab report has no option '--outputt'; did you mean '--output'?\n");
     expect_wrong_usage({"xyzzy", "a"}, "dynlab: unknown command 'xyzzy'\n");
     expect_wrong_usage({"report", "a", "b", "c"}, "dynlab: too many arguments: b c\n");
-    expect_wrong_usage({"mine.lua"},
-                       "dynlab: to run a script, use: dynlab run mine.lua\nFor more information, run the command with --help");
+    expect_wrong_usage(
+        {"mine.lua"},
+        "dynlab: to run a script, use: dynlab run mine.lua\nFor more information, run the command with --help");
 }
 
 TEST(usage_message, of_missing_and_excluding_words_is_an_error_of_usage) {
@@ -58,7 +59,8 @@ TEST(usage_message, of_identify_names_the_option_and_the_wanted_word) {
     wrong({"--poles", "two"}, "expected a whole number or the word auto, not 'two'");
     wrong({"--poles", "2", "--delay", "soon"}, "expected a number of seconds or the word auto, not 'soon'");
     wrong({"--poles", "2", "--zeros", "a"}, "dynlab: --zeros requires a number, but 'a' was given\n");
-    wrong({"--poles", "2", "--zeros", "3"}, "from 0 to the number of poles, 2, but is 3");  // IdentifyRequest::validate
+    wrong({"--poles", "2", "--zeros", "3"},
+          "from 0 to the number of poles, 2, but it is 3");  // IdentifyRequest::validate
     wrong({"--poles", "2", "--time", "t", "--time", "u"}, "dynlab: --time was given more than once\n");
     wrong({"--poles", "2", "--wrong", "1"}, "--wrong");
     wrong({"--poles", "2", "-o", "a.pdf", "--script"}, "--script");

@@ -89,12 +89,14 @@ TEST_F(csv_file, names_line_and_column_of_what_is_wrong) {
     const std::string remedy = "; leave the cell of a missing sample empty, or write NaN";
     EXPECT_EQ(complaint("t,y\n0,1\n1,abc\n"), ", line 3, column y: expected a number, got \"abc\"" + remedy);
     EXPECT_EQ(complaint("t,y\n0,1\n-inf,1\n"), ", line 3, column t: expected a finite number, got \"-inf\"" + remedy);
-    EXPECT_EQ(complaint("t\n1e999\n"), ", line 2, column t: expected a number within the range of double precision, got \"1e999\"");
+    EXPECT_EQ(complaint("t\n1e999\n"),
+              ", line 2, column t: expected a number within the range of double precision, got \"1e999\"");
     EXPECT_EQ(complaint("t,y\n0,1\n1\n"), ", line 3: expected 2 cells as in the header line, got 1");
     EXPECT_EQ(complaint("t,y\n0,1\n0,1,2\n1,2\n"), ", line 3: expected 2 cells as in the header line, got 3");
-    EXPECT_EQ(complaint("t,y\n0,1,2\n"),
-              ", line 1: the line has 2 names, but the rows below it have 3 cells; if the line is not part of the table, use "
-              "load(file, {skip = 1})");
+    EXPECT_EQ(
+        complaint("t,y\n0,1,2\n"),
+        ", line 1: the line has 2 names, but the rows below it have 3 cells; if the line is not part of the table, use "
+        "load(file, {skip = 1})");
     EXPECT_EQ(complaint("t,y\n0,1.5.2\n1,2\n2,3\n"), ", line 2, column y: expected a number, got \"1.5.2\"" + remedy);
     EXPECT_EQ(complaint("t,y\n0,1\n1,1 2\n"), ", line 3, column y: expected a number, got \"1 2\"" + remedy);
     EXPECT_EQ(complaint("t;y\n0;1.5\n1;1.234,5\n"),

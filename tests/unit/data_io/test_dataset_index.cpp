@@ -171,10 +171,10 @@ TEST_F(dataset_index, course_files_lie_in_the_data_sets_own_folder) {
           "../../../" + project_.path().filename().string() + "/elsewhere.mat", std::string("deeper/elsewhere.mat")}) {
         write_file_atomically(data / "mine/SOURCE.md", "Mine.\nCourse file: " + path + "\n");
         for (const char* name : {"mine", "elsewhere.mat", "elsewhere"})
-            EXPECT_EQ(complaint(name),
-                      (data / "mine/SOURCE.md").string() +
-                          ": \"Course file:\" must be followed by names of files in the folder of the data set, but the path \"" + path +
-                          "\" was given");
+            EXPECT_EQ(complaint(name), (data / "mine/SOURCE.md").string() +
+                                           ": \"Course file:\" must be followed by names of files in the folder of the "
+                                           "data set, but the path \"" +
+                                           path + "\" was given");
     }
     write_file_atomically(data / "mine/SOURCE.md", "Mine.\nCourse file: elsewhere.mat\n");
     write_mat(data / "mine/elsewhere.mat", 8);

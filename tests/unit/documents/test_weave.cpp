@@ -89,7 +89,7 @@ TEST(weave, units_in_brackets_at_the_axes_are_no_formula) {
     panel.y_label = Message("voltage [V]"), panel.x_label = Message("R&D [s]");
     record.figures["a-figure-1"].figure = std::make_shared<Figure>(panel);
     const MarkdownText woven = weave("-- %% id=a\nplot(x)\n", record);
-    EXPECT_THAT(woven.text, HasSubstr("![Voltage &#91;V&#93; over R\\&D &#91;s&#93;](figure:a-figure-1)"));
+    EXPECT_THAT(woven.text, HasSubstr("![Voltage &#91;V&#93; versus R\\&D &#91;s&#93;](figure:a-figure-1)"));
     Complaints complaints;
     find_latex_brackets(woven, complaints);
     EXPECT_TRUE(complaints.empty());

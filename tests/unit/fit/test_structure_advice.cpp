@@ -162,7 +162,7 @@ TEST(structure_advice, missing_pole_is_named_with_the_fit_that_is_reached) {
     EXPECT_NEAR(missed->better_fit_percent, better.fit_percent[0], 1e-3);
     EXPECT_NEAR(missed->fit_percent, given.fit_percent[0], 1e-9);
     EXPECT_EQ(message_text(sentence_of(*missed)),
-              "With one more pole the fit is " + number_text(better.fit_percent[0], 4) + " % instead of " +
+              "With one more pole, the fit is " + number_text(better.fit_percent[0], 4) + " % instead of " +
                   number_text(given.fit_percent[0], 4) +
                   " %: the residuals of the current model are correlated with the input.");
     EXPECT_FALSE(missed_structure(data, better, {}));
@@ -200,7 +200,7 @@ TEST(structure_advice, of_a_long_record_its_beginning) {
     EXPECT_EQ(missed->code, StructureAdviceCode::kFeedthrough);
     EXPECT_EQ(missed->samples, 100'000);
     EXPECT_THAT(message_text(sentence_of(*missed)),
-                HasSubstr("With as many zeros as poles the fit of the first 100000 samples is"));
+                HasSubstr("With as many zeros as poles, the fit of the first 100000 samples is"));
 }
 
 TEST(structure_advice, a_drift_is_named_before_a_feedthrough) {  // oracle: the line put in, and the fit without it

@@ -116,7 +116,7 @@ TEST(order_selection, an_unstable_model_is_recommended_only_where_all_are) {  //
     const OrderChoice choice = choose_order(selection);
     EXPECT_EQ(choice.place, 0u);
     EXPECT_THAT(message_text(choice.explanation),
-                HasSubstr("With 3 poles and no zero the BIC would be better, but that model is unstable."));
+                HasSubstr("With 3 poles and no zeros the BIC would be better, but that model is unstable."));
     selection.candidates.front().unstable = true;
     EXPECT_EQ(choose_order(selection).place, 1u);
 }

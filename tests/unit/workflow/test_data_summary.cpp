@@ -41,7 +41,7 @@ TEST(data_summary, shows_the_variables_of_a_matlab_file_and_of_a_data_set) {
                      .record.error);
     EXPECT_THAT(summarize_data(work.path("a.mat"), {}).text,
                 AllOf(HasSubstr("a.mat: 4 variables\n"), HasSubstr("3 x 3 numbers"),
-                      ContainsRegex("run +a struct\n +run.u +2 numbers +1 +2 +1.5\n"),
+                      ContainsRegex("run +a structure\n +run.u +2 numbers +1 +2 +1.5\n"),
                       HasSubstr("sampling time: 0.5 s, as specified in the file")));
     EXPECT_THAT(summarize_data("crane", {}).text, HasSubstr("steps.theta"));
 }

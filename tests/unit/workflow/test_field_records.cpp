@@ -121,7 +121,7 @@ TEST_F(field_records, cells_of_switches_percents_and_thousands_are_numbers) {
     EXPECT_NEAR(time_constant(of("percent.csv", "valve", "level")), 4, 0.2);
     EXPECT_NEAR(time_constant(of("milliers.csv", "d\u00E9bit", "pression")), 4, 0.2);
     EXPECT_THAT(look("monitor.txt"), HasSubstr("every 0.5 s"));
-    EXPECT_THAT(look("percent.csv"), HasSubstr("its unit is %"));
+    EXPECT_THAT(look("percent.csv"), HasSubstr("the unit of the column is %"));
 }
 
 TEST_F(field_records, exports_of_instruments_are_tables_with_a_time) {

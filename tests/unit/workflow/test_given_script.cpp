@@ -36,7 +36,7 @@ TEST(given_script, folders_without_a_lesson_list_what_is_missing) {
     work.write("own/analysis.lua", "print(1)\n");
     const auto refusal = [&](const char* folder) { return error_of([&] { find_lesson(work.path(folder)); }); };
     EXPECT_THAT(refusal("capital"), HasSubstr("capital' contains neither lesson.lua nor analysis.lua, but "
-                                              "Analysis.lua: rename it to analysis.lua; the lessons are"));
+                                              "there is Analysis.lua: rename it to analysis.lua; the lessons are"));
     EXPECT_THAT(refusal(""), HasSubstr("' contains neither lesson.lua nor analysis.lua; the lessons are"));
     EXPECT_THAT(refusal("own"), HasSubstr("own' contains no lesson.lua; the lessons are"));
 }
@@ -48,9 +48,9 @@ TEST(given_script, that_is_no_script_is_refused_with_the_command_to_type) {
     work.write("mine/report.pdf", "%PDF");
     work.write("data.csv", "t,y\n0,1\n");
     for (const std::string command : {"report", "run", "lint", "pack", "check"})
-        EXPECT_EQ(
-            message_text(why_no_script(work.path("mine/report.md"), command)),
-            "report.md is the report's text: give the folder, as in dynlab " + command + " " + work.path("mine").string());
+        EXPECT_EQ(message_text(why_no_script(work.path("mine/report.md"), command)),
+                  "report.md is the report's text: give the folder, as in dynlab " + command + " " +
+                      work.path("mine").string());
     EXPECT_THAT(message_text(why_no_script(work.path("mine/report.pdf"), "weave")),
                 HasSubstr("report.pdf is the report's PDF: give the folder, as in dynlab weave "));
     EXPECT_EQ(message_text(why_no_script(work.path("data.csv"), "run")),

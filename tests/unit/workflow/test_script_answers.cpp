@@ -44,7 +44,7 @@ TEST(script_answers, a_table_of_numbers_is_a_vector_where_one_is_wanted) {
         return record.error ? record.error->text() : record.answers.at("v").json;
     };
     EXPECT_EQ(given("{9.7, 9.5, 9.9}"), given("vector{9.7, 9.5, 9.9}"));
-    EXPECT_THAT(given("{9.7, 'x'}"), HasSubstr("must be a vector of numbers, but its element 2 is the text"));
+    EXPECT_THAT(given("{9.7, 'x'}"), HasSubstr("must be a vector of numbers, but its element 2 is the string"));
     EXPECT_THAT(given("'x'"), HasSubstr("must be of the kind vector, but a value of the kind text was given"));
 }
 

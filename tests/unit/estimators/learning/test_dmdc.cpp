@@ -100,8 +100,14 @@ TEST(dmdc, refuses_what_cannot_be_fitted) {
     EXPECT_THAT(thrown_message([&] { dmdc(data, {-1, 1}); }), HasSubstr("`rank` must be nonnegative"));
     EXPECT_THAT(thrown_message([&] { dmdc(data, {3, 1}); }), HasSubstr("a snapshot has only 2 values"));
     EXPECT_THAT(thrown_message([&] { dmdc(data, {2, 0}); }), HasSubstr("`delays` must be at least 1"));
-    EXPECT_THAT(thrown_message([&] { dmdc(data, {2, 10}); }), HasSubstr("too few samples"));
-    EXPECT_THAT(thrown_message([&] { dmdc(data, {2, 40}); }), HasSubstr("too few samples"));
+    EXPECT_THAT(thrown_message([&] {
+                    dmdc(data, {2, 10});
+                }),
+                HasSubstr("more than 40 snapshots are required, but the data have only 20"));
+    EXPECT_THAT(thrown_message([&] {
+                    dmdc(data, {2, 40});
+                }),
+                HasSubstr("more than 160 snapshots are required, but the data have only 0"));
     IdData twins = simulated_data(system_of_three(), 100, 0, 9);
     twins.experiments[0].y.col(1) = twins.experiments[0].y.col(0);
     EXPECT_THAT(thrown_message([&] { dmdc(twins, {2, 1}); }), HasSubstr("the data support only 1 direction"));

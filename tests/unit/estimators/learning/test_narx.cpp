@@ -160,7 +160,7 @@ TEST(narx, refuses_what_cannot_be_fitted) {
     IdData faster = data;
     faster.Ts = 0.1;
     EXPECT_THAT(thrown_message([&] { found.model->free_run(faster, 0, Vector()); }),
-                HasSubstr("the sampling time 0.5 s"));
+                HasSubstr("the sampling time of the model is 0.5 s"));
     EXPECT_THAT(thrown_message([&] { found.model->free_run(data, 0, Vector::Ones(3)); }),
                 HasSubstr("x0 must contain the first 2"));
     const IdData two(Matrix::Random(50, 2), Matrix::Random(50, 1), 1);

@@ -27,7 +27,8 @@ TEST(polynomial_fit, refuses_other_data) {  // oracle: the promises of the heade
     EXPECT_EQ(refusal(data, orders), "");
     const Experiment& data_set = data.experiments[0];
     EXPECT_THAT(refusal(IdData(data_set.y, data_set.u, data.time()), orders), HasSubstr("regularly sampled"));
-    EXPECT_THAT(refusal(data, PolynomialOrders::arx(1, {1, 1}, {1, 1})), HasSubstr("the data have 1 input, so each"));
+    EXPECT_THAT(refusal(data, PolynomialOrders::arx(1, {1, 1}, {1, 1})),
+                HasSubstr("the data have 1 input, so nb, nf and nk need one value for each input"));
     EXPECT_THAT(refusal(data.range(1, 5), PolynomialOrders::arx(1, {1}, {5})), HasSubstr("delay nk = 5"));
 }
 
