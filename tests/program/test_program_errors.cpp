@@ -159,7 +159,8 @@ TEST(program_errors, wrong_words_are_reported_in_all_programs_and_nothing_is_wri
     expect_failure(bench.dynlab({"run", "absent.lua"}), 1, "absent.lua");
     expect_failure(bench.dynlab({"report", "miner"}), 1,
                    "unknown lesson or folder 'miner'; did you mean 'mine'? The lessons are ");
-    expect_failure(bench.dynlab({"lint", "capital"}), 2, "missing from the folder capital, but there is Analysis.lua: rename it");
+    expect_failure(bench.dynlab({"lint", "capital"}), 2,
+                   "missing from the folder capital, but there is Analysis.lua: rename it");
     EXPECT_EQ(bench.read("mine/report.pdf"), "%PDF the good one");
     EXPECT_THAT(bench.files(), ElementsAre("capital", "mine"));
 }
