@@ -71,6 +71,22 @@ TEST(programs, lesson_program_alone_runs_lessons_and_reports_how_to_build_other_
               "/scripts/start\n");
 }
 
+// oracle: the loader's reason
+TEST(programs, pdf_without_the_module_that_reads_it_is_refused_with_the_missing_file) {
+    const test::Workbench work;
+    put(work, {"dynlab", "dynlab-course"});
+    work.write("report.pdf", "%PDF-1.5\n%%EOF\n");
+    const std::string missing = "PDF files cannot be read: " + work.path("lib/dynlab/libdynlab_poppler.so").string();
+    const std::string check = "DYNLAB_HOME=" DYNLAB_SOURCE_DIR " bin/dynlab check report.pdf";
+    const ChildResult refused = work.shell(check);
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_THAT(refused.error_output, HasSubstr(missing + ": cannot open shared object file"));
+    fs::create_directories(work.path("lib"));
+    fs::copy(kFolder.parent_path() / "lib/dynlab", work.path("lib/dynlab"));
+    const ChildResult read = work.shell(check);
+    EXPECT_THAT(read.output, HasSubstr("The file is damaged: it contains no pages."));
+}
+
 TEST(programs, lesson_program_is_linked_without_course_pages_and_cluster) {
     const test::Workbench work;
     const auto libraries = [&](const std::string& program) {
