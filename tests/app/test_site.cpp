@@ -225,7 +225,8 @@ TEST(site, refuses_wrong_folders_at_once) {
     for (const char* folder : {"thesis", "file"}) {
         const ChildResult refused = bench.dynlab({"site", folder});
         EXPECT_EQ(refused.exit_code, 1);
-        EXPECT_THAT(refused.error_output, HasSubstr("give a new or an empty folder"));
+        EXPECT_THAT(refused.error_output, AllOf(HasSubstr(std::string(folder) + " was not changed, because "),
+                                                HasSubstr("; give a new or an empty folder")));
     }
     EXPECT_EQ(bench.read("thesis/chapter.tex"), "years of work");
     const ChildResult lacks = bench.dynlab({"site", "new", "--engine", "thesis"});

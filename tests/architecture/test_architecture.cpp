@@ -116,7 +116,7 @@ TEST(architecture, modules_include_only_modules_of_their_layer_named_before_them
             const fs::path below = fs::relative(file, kRoot / "engine" / layer);
             if (!below.has_parent_path()) continue;
             const std::string module = below.begin()->string();
-            if (!places.contains(module)) offences.push_back(layer + "/" + module + " stands in no order");
+            if (!places.contains(module)) offences.push_back(layer + "/" + module + " is missing from the order");
             for (const std::string& included : matches(text_of(file), "#include \"" + layer + "/([a-z_]+)/"))
                 if (!places.contains(included) || !places.contains(module) || places.at(included) > places.at(module))
                     offences.push_back(place_of(file) + " includes " + included);

@@ -186,16 +186,16 @@ TEST(bad_input, data_are_checked_when_they_are_made) {
 }
 
 TEST(bad_input, every_method_refuses_data_it_cannot_use) {
-    const auto excitation =
-        AnyOf(HasSubstr("excit"), HasSubstr("is zero in all samples, so its effect cannot be estimated"),
-              HasSubstr("no dynamics can be estimated"), HasSubstr("no step"),
-              HasSubstr("does not respond to the step"), HasSubstr("not a step"));
+    const auto excitation = AnyOf(HasSubstr("excit"), HasSubstr("no dynamics can be estimated"), HasSubstr("no step"),
+                                  HasSubstr("does not respond to the step"), HasSubstr("not a step"));
+    const auto zero_input = AnyOf(excitation, HasSubstr("is zero in all samples, so its effect cannot be estimated"));
     const std::vector<std::pair<std::string, testing::Matcher<std::string>>> kCases = {
         {"iddata({1, 2, 3}, {1, 0, 1}, 0.1)", AnyOf(HasSubstr("sample"), HasSubstr("not a step"))},
         {"iddata({1}, {1}, 0.1)", AnyOf(HasSubstr("sample"), HasSubstr("never changes"))},
-        {"iddata(y, zeros(N), 0.05)", excitation},
+        {"iddata(y, zeros(N), 0.05)", zero_input},
         {"iddata(5 + 0.1*e, 2*ones(N), 0.05)", excitation},
-        {"iddata(3*ones(N), u, 0.05)", AnyOf(HasSubstr("never changes"), HasSubstr("not a step"))},
+        {"iddata(3*ones(N), u, 0.05)",
+         AnyOf(testing::ContainsRegex("output( [a-z0-9]+)? never changes"), HasSubstr("not a step"))},
         {"iddata(y, nil, 0.05)", HasSubstr("input")},
         {"y", HasSubstr("must be an iddata object, but a vector of 504 values was given")},
         {"G", HasSubstr("must be an iddata object, but a model was given")},

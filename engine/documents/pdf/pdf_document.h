@@ -30,8 +30,8 @@ class PdfDocument {
     virtual std::optional<std::u16string> text_in_content_order(int index) const = 0;
 };
 
-/// Loads poppler and the forty libraries that it needs. They would be half of the start of every command, so only a
-/// process that reads a PDF loads them. Throws EnvironmentError.
+/// Loads poppler and the twenty libraries that only it needs. They would take a fifth of the start of every command, so
+/// only a process that reads a PDF loads them. Throws EnvironmentError.
 void load_pdf_library();
 
 /// Returns the document in `pdf`, which must outlive it; null if the bytes are not a PDF. Throws EnvironmentError.

@@ -76,7 +76,7 @@ std::string initial_of_member() {
 }
 
 /// The row of an option that is a member of an options struct: `option<&FitOptions::tolerance>("Tol", about("..."),
-/// {.minimum = 0})`. The default of a choice is to be given.
+/// {.minimum = 0})`. Specify the default of a choice.
 template <auto kMember>
 constexpr OptionEntry option(const char* name, MessageId<> description, const OptionFacts& facts = {}) {
     using Of = MemberOf<decltype(kMember)>;

@@ -185,7 +185,7 @@ TEST(impulseest, poor_inputs_need_the_smooth_estimate) {  // oracle: a sine give
     for (Index k = 0; k < 400; ++k) u[k] = std::sin(0.2 * static_cast<double>(k));
     const IdData data = simulated_data(response_with(1, 60), u, 0.01, 1);
     EXPECT_THAT(thrown_message([&] { impulseest(data, plain(60)); }),
-                HasSubstr("not persistently exciting of order 61"));
+                HasSubstr("not persistently exciting of order 61, the number of samples of the impulse response"));
     ImpulseestOptions options;
     options.lags = 60;
     EXPECT_TRUE(impulseest(data, options).response.allFinite());
