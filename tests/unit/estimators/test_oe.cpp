@@ -181,7 +181,8 @@ TEST(oe, refuses_what_it_cannot_fit) {
     EXPECT_THAT(refusal(IdData(y, Matrix::Random(100, 2), 1)), HasSubstr("2 inputs"));
     EXPECT_THAT(refusal(IdData(Matrix::Random(100, 2), u, 1)), HasSubstr("one output"));
     EXPECT_THAT(refusal(IdData(y, u, Vector::LinSpaced(100, 0, 1))), HasSubstr("regularly"));
-    EXPECT_THAT(refusal(data.range(1, 4)), HasSubstr("more samples than the 4 values"));
+    EXPECT_THAT(refusal(data.range(1, 4)),
+                HasSubstr("oe estimates 4 values and needs more samples than that, but the data have 4"));
     EXPECT_EQ(refusal(data.range(1, 20)), "");
     FitOptions options;
     options.tolerance = 0;
