@@ -134,7 +134,7 @@ class Column {
         const std::array ranges = {kSecondsOfDay, kSecondsOfDay / 2};
         if (count_on(clock_.t, ranges) > 0)
             clock_.notes.push_back(
-                Message("the times in '{}' pass midnight; dynlab counts on into the next day", name_));
+                Message("the times in '{}' pass midnight; dynlab continues them into the next day", name_));
         return true;
     }
 
@@ -189,10 +189,11 @@ class Column {
                 place);
         if (back == 0)
             return Message(
-                "{}: {} rows have the same time as the row before. If rows were written twice, delete the copies. If "
-                "the clock is too coarse, specify the sampling time with --Ts of a command or with iddata(y, u, Ts)",
+                "{}. Number of rows with the same time as the previous row: {}. If rows were written twice, delete the "
+                "copies. If the clock is too coarse, specify the sampling time with --Ts of a command or with "
+                "iddata(y, u, Ts)",
                 place, equal);
-        return Message("{}: if the recording was restarted or the clock was set, save each part in a separate file",
+        return Message("{}. If the recording was restarted or the clock was set, save each part in a separate file",
                        place);
     }
     bool in_pairs() const {

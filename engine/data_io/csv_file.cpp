@@ -211,9 +211,9 @@ class CsvReader {
 
     void report_layout() {
         if (layout_.passed_over == 1)
-            note(Message("the table starts in line {}; the line above it is skipped", layout_.table_line));
+            note(Message("the table starts at line {}; the line above it is skipped", layout_.table_line));
         else if (layout_.passed_over > 1)
-            note(Message("the table starts in line {}; {} lines above it are skipped", layout_.table_line,
+            note(Message("the table starts at line {}; {} lines above it are skipped", layout_.table_line,
                          layout_.passed_over));
         if (layout_.named_by_comment) note(Message("the column names are read from the comment above the numbers"));
         if (layout_.units_line > 0) {
@@ -262,7 +262,7 @@ class CsvReader {
         MessageList reported;
         for (std::size_t j = 0; j < columns(); ++j)
             if (const TableColumn& column = rows.columns[j]; column.missing > 0)
-                reported.items.push_back(Message("{} of {} in {} (first in line {})", column.missing, rows.count,
+                reported.items.push_back(Message("{} of {} in {} (first on line {})", column.missing, rows.count,
                                                  table_.names[j], column.first_missing_line));
         if (!reported.items.empty())
             note(

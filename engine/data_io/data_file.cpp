@@ -67,7 +67,7 @@ void refuse_table_options(const fs::path& file, const ImportOptions& options) {
                         : !options.sheet.empty() ? "sheet"
                                                  : nullptr;
     if (given != nullptr)
-        throw EnvironmentError("{}: the option {} is for tables, not for {} files", file.string(), given,
+        throw EnvironmentError("{}: the option '{}' applies only to tables, not to {} files", file.string(), given,
                                file.extension().string());
 }
 
@@ -78,7 +78,7 @@ LoadedData variables_of(const fs::path& file, bool guarded, const ImportOptions&
         data.variables = read_json_file(file);
     else
         data.variables = read_mat_file(file, guarded, &data.notes);
-    for (Message& note : data.notes) note = Message("{}: left out", note);
+    for (Message& note : data.notes) note = Message("not all variables were loaded: {}", note);
     for (const auto& [name, unit] : options.units) {
         if (data.variables.count(name) == 0)
             throw EnvironmentError("{}: a unit is given for {}, which is not a variable of the file", file.string(),

@@ -259,7 +259,8 @@ Json json_of_variable(const Variable& variable) {
 VariableTable read_json_file(const fs::path& file) {
     std::error_code error;
     if (fs::file_size(file, error) > kMaxJsonBytes && !error)
-        throw EnvironmentError("{}: the file exceeds the limit of 64 MB for JSON files", file.string());
+        throw EnvironmentError("{}: the file exceeds the limit of 64 MB for JSON files; save the data as CSV or MAT",
+                               file.string());
     const std::string text = read_file(file);
     VariableBuilder builder(file, text.size());
     Json::sax_parse(text, &builder);

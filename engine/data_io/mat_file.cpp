@@ -130,8 +130,7 @@ MatContent read_variables(const fs::path& file) {
                                    layout.variables);
         // libmatio loses its way behind some of them.
         content.left_out.push_back(
-            Message("reading stops at this variable: only {} of the {} variables in the file can be read", count,
-                    layout.variables));
+            Message("only {} of the {} variables in the file can be read", count, layout.variables));
     }
     if (content.variables.empty() && !content.left_out.empty())
         throw EnvironmentError("{}: {}", file.string(), MessageList{content.left_out, Join::kSemicolon});

@@ -82,8 +82,8 @@ class MatFileSkeleton {
             return MatVersion::k5;
         }
         if (version != 0x0200)
-            throw EnvironmentError("{} has the unknown MAT version {}", file_.string(),
-                                   fmt::format("{:#06x}", version));
+            throw EnvironmentError("{} has the unknown MAT version {}; MAT versions 4, 5, 7 and 7.3 can be read",
+                                   file_.string(), fmt::format("{:#06x}", version));
         constexpr std::array<char, 8> kHdf5Signature = {'\x89', 'H', 'D', 'F', '\r', '\n', '\x1a', '\n'};
         if (size_ < kHdf5Start + 8)
             throw EnvironmentError("{} is truncated: it has only {}", file_.string(),

@@ -66,7 +66,8 @@ WorkbookParts unpacked(const std::string& file, const std::string& bytes) {
     archive_entry* entry = nullptr;
     int result = ARCHIVE_OK;
     for (int count = 0; (result = ::archive_read_next_header(zip.get(), &entry)) == ARCHIVE_OK; ++count) {
-        if (count == kMaxParts) throw EnvironmentError("{} has more than {} parts", file, kMaxParts);
+        if (count == kMaxParts)
+            throw EnvironmentError("{} has more than {} parts; save the sheet as CSV", file, kMaxParts);
         const char* path = ::archive_entry_pathname(entry);
         if (path == nullptr || !is_requested(path)) continue;
         std::string& part = parts.by_path[path];
@@ -75,7 +76,9 @@ WorkbookParts unpacked(const std::string& file, const std::string& bytes) {
         la_ssize_t size = 0;
         while ((size = ::archive_read_data(zip.get(), block, sizeof block)) > 0) {
             total += static_cast<std::size_t>(size);
-            if (total > limit) throw EnvironmentError("{} is larger than {} MB when unpacked", file, limit >> 20);
+            if (total > limit)
+                throw EnvironmentError("{} is larger than {} MB when unpacked; save the sheet as CSV", file,
+                                       limit >> 20);
             part.append(block, static_cast<std::size_t>(size));
         }
         if (size < 0) throw EnvironmentError("{} is damaged: one of its parts cannot be unpacked", file);
@@ -279,7 +282,7 @@ class SheetReader {
     };
 
     [[noreturn]] void fail_large() const {
-        throw EnvironmentError("{} has a sheet larger than {} MB", file_, max_bytes_ >> 20);
+        throw EnvironmentError("{} has a sheet larger than {} MB; save the sheet as CSV", file_, max_bytes_ >> 20);
     }
 
     std::size_t whole_number(const std::string& text) const {
@@ -368,7 +371,7 @@ SheetText read_sheet(const std::filesystem::path& file, const std::string& sheet
     const ChildResult result = run_guarded(read, limits);
     if (result.timed_out)
         throw result.time_limit() == TimeLimit::kProcessor
-            ? EnvironmentError("{}: reading used more than {} s of processor time", name,
+            ? EnvironmentError("{}: reading used more than {} s of processor time; save the sheet as CSV", name,
                                limits.time.seconds(TimeLimit::kProcessor))
             : EnvironmentError("{}: reading did not finish within {} s; try again when the machine is less busy", name,
                                limits.time.seconds(TimeLimit::kClock));

@@ -158,7 +158,7 @@ class Sentences {
     static Message of_block(const std::string& code, const std::string& needle, const std::string& first,
                             const std::string& second, const std::string& third) {
         if (code == "diagram")
-            return Message("in this block diagram \"{}\": {}", needle, wrong_in_diagram(first, second, third));
+            return Message("in the block diagram \"{}\": {}", needle, wrong_in_diagram(first, second, third));
         if (code == "choice") return Message("in the question \"{}\": {}", needle, wrong_in_choice(first));
         if (code == "unknown-drawing") {
             const std::vector<std::string> known = split_at(second, ' ');

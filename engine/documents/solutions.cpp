@@ -94,7 +94,7 @@ std::string without_solutions(const std::string& source, const std::filesystem::
         }
         switch (solution_line(line, name, number)) {
             case SolutionLine::kBegin:
-                if (begun) fail(number, Message("a solution starts inside the solution of line {}", begun));
+                if (begun) fail(number, Message("a solution starts inside the solution that starts on line {}", begun));
                 begun = number;
                 if (hidden || (asked && !in_text)) break;
                 asked = !in_text;

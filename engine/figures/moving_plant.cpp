@@ -18,7 +18,8 @@ void PlantDrawing::validate() const {
             throw InvalidArgument("a part that carries another part of the drawing must be defined before that part");
     for (const PlantShape& piece : pieces) {
         if (piece.x.size() != piece.y.size() || piece.x.size() != piece.part.size())
-            throw InvalidArgument("a shape of the drawing needs equal numbers of x, y and parts");
+            throw InvalidArgument(
+                "a shape of the drawing needs equal numbers of x coordinates, y coordinates and parts");
         for (const int part : piece.part)
             if (part < -1 || part >= count)
                 throw InvalidArgument("a shape of the drawing belongs to a part that does not exist");

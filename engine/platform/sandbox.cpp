@@ -47,7 +47,9 @@ std::string isolation_name(Isolation level) {
 std::optional<Message> obstacle_to(Isolation level) {
     if (level == Isolation::kProcess) return {};
     if (!find_program(kBubblewrap))
-        return Message("full isolation needs bubblewrap: run sudo apt install bubblewrap (or use --isolation process)");
+        return Message(
+            "full isolation needs bubblewrap. Use --isolation process, or install bubblewrap with: sudo apt install "
+            "bubblewrap");
     Words words = bare_sandbox();
     words.push_back("/usr/bin/true");
     ChildOptions child;

@@ -60,7 +60,8 @@ void carry_out(Work work) {
         work();
     } catch (const std::bad_alloc&) {
         send({.kind = "failed",
-              .error = PageError{message_text(Message("the browser does not provide more memory for this page"))}});
+              .error = PageError{message_text(Message("the browser does not provide more memory for this page; use "
+                                                      "less data, or run the script with the installed dynlab"))}});
     } catch (const std::exception& error) {
         send({.kind = "failed", .error = PageError{error.what()}});
     }

@@ -198,7 +198,7 @@ class DataLooker {
             first.items.push_back(Message("{} after {} s", seconds(t[at + 1] - t[at]), short_number(t[at])));
         }
         if (spacing.gaps.size() > kMaxGaps) first.items.push_back(Message::verbatim("..."));
-        return text(Message("gaps: {}, {}", spacing.gaps.size(), first)) + "\n";
+        return text(Message("gaps: {} ({})", spacing.gaps.size(), first)) + "\n";
     }
 
     std::string first_rows() const {

@@ -61,7 +61,8 @@ Message why_no_script(const fs::path& given, const std::string& command) {
         return Message("{} is {}: give a script (.lua) or a notebook (.ipynb)", name, kind);
     if (in_small_letters(name) == "report.md") kind = Message("the report's text");
     if (in_small_letters(name) == "report.pdf") kind = Message("the report's PDF");
-    return Message("{} is {}: give the folder, as in dynlab {} {}", name, kind, command, shell_word(folder.string()));
+    return Message("{} is {}. Give the folder, for example: dynlab {} {}", name, kind, command,
+                   shell_word(folder.string()));
 }
 
 Message nearly_called(const fs::path& folder, const std::string& name) {

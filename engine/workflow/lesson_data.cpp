@@ -71,8 +71,9 @@ std::vector<std::string> simulated_data_of(const Lesson& lesson) {
     if (const auto known = cache.load_entry(name)) return words_of(*known);
     const RunRecord record = run_of_solution(script);
     if (record.error)
-        throw EnvironmentError("the data of lesson {} are unknown, because its reference solution stops: {}",
-                               lesson.slug, record.error->text());
+        throw EnvironmentError(
+            "the data of lesson {} are unknown, because its reference solution stops with an error: {}", lesson.slug,
+            record.error->text());
     const std::vector<std::string> names = simulated_data_of(record);
     cache.save_entry(name, fmt::format("{}\n", fmt::join(names, "\n")));
     return names;

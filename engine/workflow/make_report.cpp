@@ -169,14 +169,19 @@ ReportRequest report_of_script(const PercentScript& script, const fs::path& outp
 ReportRequest report_of(const std::string& subject, const fs::path& output, const std::string& language) {
     const fs::path folder = subject;
     if (fs::is_regular_file(folder)) {
-        if (!language.empty()) throw EnvironmentError("the header of {} sets the language with \"language:\"", subject);
+        if (!language.empty())
+            throw EnvironmentError(
+                "--language applies only to a lesson. Set the language in the header of {} with \"language:\"",
+                subject);
         return report_of_script(read_script_or_notebook(folder),
                                 output.empty() ? fs::path(folder).replace_extension(".pdf") : output);
     }
     if (!fs::is_directory(folder) || (lesson_in(folder) && !fs::exists(folder / "analysis.lua")))
         return report_of_lesson(find_lesson(subject), output, language);
     if (!language.empty())
-        throw EnvironmentError("the report.md of {} sets the language in its header with \"lang:\"", subject);
+        throw EnvironmentError(
+            "--language applies only to a lesson. Set the language of {} in the header of report.md with \"lang:\"",
+            subject);
     return report_of_folder(subject, output);
 }
 

@@ -79,7 +79,7 @@
     list.replaceChildren(...found.map(item));
     if (!found.length) {
       const none = document.createElement("li");
-      none.textContent = text(tr("No page has all of these words."));
+      none.textContent = text(tr("No page contains all of these words."));
       list.append(none);
     }
     list.hidden = !wordsOf(field.value).length;

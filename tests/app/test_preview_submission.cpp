@@ -116,8 +116,8 @@ TEST_F(preview_submission, each_thing_is_counted_once_and_points_are_shown) {
         << browser.evaluate("return " + reported);
     browser.click("#show-findings");
     const std::string panel = browser.evaluate("return document.getElementById('findings').innerText");
-    EXPECT_THAT(panel, testing::HasSubstr("Question 1 is open"));
-    EXPECT_THAT(panel, testing::HasSubstr("Question 2 is open"));
+    EXPECT_THAT(panel, testing::HasSubstr("Question 1 is unanswered"));
+    EXPECT_THAT(panel, testing::HasSubstr("Question 2 is unanswered"));
     EXPECT_THAT(panel, testing::HasSubstr("Checks of the lesson: 0 of 3 points"));
     // Each place is a button: to the question's line, and to where the answer is asked for.
     browser.evaluate("[...document.querySelectorAll('#findings button')].find(b => b.innerText === 'gain').click()");

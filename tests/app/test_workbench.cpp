@@ -338,8 +338,8 @@ TEST_F(workbench, files_that_are_no_records_are_reported_and_the_page_stays) {
     struct Bad {
         const char *name, *text, *says;
     };
-    const Bad all[] = {{"words.csv", "a,b\nx,y\nz,w\n", "does not contain two signals"},
-                       {"one.csv", "y\n1\n2\n3\n4\n", "does not contain two signals"},
+    const Bad all[] = {{"words.csv", "a,b\nx,y\nz,w\n", "must contain at least two signals"},
+                       {"one.csv", "y\n1\n2\n3\n4\n", "must contain at least two signals"},
                        {"back.csv", "t,u,y\n0,1,2\n1,1,3\n0.5,0,4\n2,0,5\n", "must increase"},
                        {"flat.csv", "# Ts: 0.1\nu,y\n1,2\n1,2\n1,2\n1,2\n", "constant"},
                        {"two.csv", "# Ts: 0.1\nu,y\n1,2\n0,3\n", "advice (2)"}};

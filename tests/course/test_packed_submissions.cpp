@@ -170,7 +170,7 @@ TEST(packed_submissions, a_first_version_after_the_reviews_is_asked_about) {
     const ChildResult late = bench.submit_file("group-02.pdf", small_pdf("last"), "2026-03-09 10:00");
     EXPECT_EQ(late.exit_code, 1);
     EXPECT_THAT(late.error_output,
-                HasSubstr("the reviews of group-02 are already due: did you mean dynlab course submit "
+                HasSubstr("the reviews of the report of group-02 are already due: did you mean dynlab course submit "
                           "--stage final? To submit a first version anyway, give --first"));
     EXPECT_EQ(bench.dump(), before);
     bench.bench().shell(
@@ -179,7 +179,7 @@ TEST(packed_submissions, a_first_version_after_the_reviews_is_asked_about) {
         "hash, 0 FROM sendings\"");
     EXPECT_THAT(
         bench.submit_file("group-02.pdf", small_pdf("last"), "2026-03-07 10:00").error_output,
-        HasSubstr("the reviews of group-02 are already released: did you mean dynlab course submit --stage final?"));
+        HasSubstr("the reviews of the report of group-02 are already released: did you mean dynlab course submit --stage final?"));
     EXPECT_THAT(bench.course({"status", "crane", "--at", "2026-03-09 12:00"}).output,
                 HasSubstr("Next: dynlab course scores crane FILE.csv, then dynlab course marks crane"));
     CourseBench::expect_done(bench.submit_file("group-02.pdf", small_pdf("again"), "2026-03-09 10:00"));  // known

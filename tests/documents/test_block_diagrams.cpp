@@ -60,7 +60,7 @@ TEST_F(block_diagrams, mistakes_are_reported_with_their_line) {
         EXPECT_THAT(message, HasSubstr(reported)) << list;
     }
     EXPECT_THAT(refusal(diagram("- a = sum 1 1\n- b = sum 2 2\n- a -> b\n")),
-                HasSubstr("report.md:6: in this block diagram \"a -> b\": a and b are neither in the same row nor in "
+                HasSubstr("report.md:6: in the block diagram \"a -> b\": a and b are neither in the same row nor in "
                           "the same column"));
     EXPECT_THAT(refusal(diagram("Words.\n")), HasSubstr("must be a list of nodes and arrows"));
 }

@@ -136,8 +136,8 @@ TEST(interchange, gnuplot_draws_the_figures_again_from_their_files) {
 
 TEST(interchange, refuses_what_is_no_model) {
     for (const auto& [code, words] :
-         {std::pair("tf({num = 'a', den = {1, 2}})", "the field num of a model struct must be a vector"),
-          {"tf({num = vector{1}, den = vector{1, 2}, Ts = 'x'})", "the field Ts of a model struct must be a number"},
+         {std::pair("tf({num = 'a', den = {1, 2}})", "the field num of a model table must be a vector"),
+          {"tf({num = vector{1}, den = vector{1, 2}, Ts = 'x'})", "the field Ts of a model table must be a number"},
           {"tf({num = vector{1}, den = zeros(2)})", "denominator"},
           {"save_json('a.mat', {x = 1})", "must end in .json"},
           {"save_json('a.json', {f = print})", "'f' must be"}}) {

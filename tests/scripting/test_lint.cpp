@@ -82,7 +82,7 @@ const Planted kPlanted[] = {
     {"montecarlo{runns = 3}\n           ^", "unknown-option", "did you mean 'runs'"},
     // text that is no Lua
     {"local x = 3 +\n             ^", "syntax", ""},
-    {"for k = 1, 3 do\n^  print(k)", "syntax", "'for' of line 1 has no 'end'"},
+    {"for k = 1, 3 do\n^  print(k)", "syntax", "'for' in line 1 has no 'end'"},
     {"x = 3 % gain\n        ^", "unknown-name", "a comment starts with --"},
     {"if x = 3 then end\n     ^", "syntax", "=="},
     {"print(\"open)\n      ^", "syntax", ""},

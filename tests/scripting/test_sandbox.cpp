@@ -25,7 +25,7 @@ TEST(sandbox, has_no_way_to_files_processes_or_other_code) {
             "for _, name in ipairs{'dump'} do if pcall(function() return string[name] end) then print(name) end end"),
         "");
     EXPECT_EQ(error_of("\x1bLua"),
-              "this is a compiled Lua chunk, which dynlab does not accept; submit the source text");
+              "this is a compiled Lua chunk, which dynlab does not accept; use the source text");
 }
 
 TEST(sandbox, hides_the_metatables) {
@@ -50,7 +50,7 @@ TEST(sandbox, ends_scripts_that_take_too_much_memory) {
               "lesson.lua:1: rep: the string would require 1e+03 GB of memory, but the limit of the script is 67.1 MB");
     EXPECT_NE(
         error_of("zeros(1e12)", options)
-            .find("zeros: a vector of 1000000000000 values needs 8e+03 GB, but the limit of the script is 67.1 MB"),
+            .find("zeros: a vector of 1000000000000 values needs 8e+03 GB of memory, but the limit of the script is 67.1 MB"),
         std::string::npos);
     EXPECT_NE(error_of("zeros(1e9, 1e9)", options).find("needs"), std::string::npos);
     EXPECT_NE(error_of("local s = 'x'\nwhile true do s = s .. s end", options)

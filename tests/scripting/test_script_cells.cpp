@@ -194,12 +194,12 @@ TEST(script_cells, other_ranges_are_counted_again) {
         EXPECT_FALSE(record.error);
         return message_text(record.figures.at("a-figure-1").figure->panels.at(0).title);
     };
-    EXPECT_EQ(title(""), "1 of 20 outside");
-    EXPECT_EQ(title("x_range = {2, 5}"), "20 of 20 outside");
+    EXPECT_EQ(title(""), "1 of 20 outside the axes");
+    EXPECT_EQ(title("x_range = {2, 5}"), "20 of 20 outside the axes");
     EXPECT_EQ(title("x_range = {0, 2000}"), "");
-    EXPECT_EQ(title("x_range = {0, 2000}, y_range = {2, 5}"), "20 of 20 outside");
+    EXPECT_EQ(title("x_range = {0, 2000}, y_range = {2, 5}"), "20 of 20 outside the axes");
     EXPECT_EQ(title("x_range = {2, 5}, title = 'all'"), "all");
-    EXPECT_EQ(title("title = '1 of 20 outside'} f:set{x_range = {2, 5}"), "1 of 20 outside") << "it is the author's";
+    EXPECT_EQ(title("title = '1 of 20 outside the axes'} f:set{x_range = {2, 5}"), "1 of 20 outside the axes") << "it is the author's";
 }
 
 TEST(script_cells, show_curves_as_described) {

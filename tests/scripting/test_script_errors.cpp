@@ -114,7 +114,7 @@ TEST(script_errors, put_what_lua_says_into_plain_words) {
         {"local y = 1%0", "lesson.lua:1: the remainder of a division by zero is undefined"},
         {"local t = {}\nt[nil] = 1", "lesson.lua:2: the key of the table is nil (it has no value)"},
         {"local function f() return 1 + f() end\nf()",
-         "lesson.lua:1: functions call each other without end (stack overflow)"},
+         "lesson.lua:1: infinite recursion (stack overflow): a function calls itself, directly or through other functions, and never stops"},
         {"error()", "lesson.lua:1: error() was called without a message"},
         {"error('my own words')", "lesson.lua:1: my own words"},
         {"error({code = 2})", "lesson.lua:1: {code = 2}"},
@@ -125,9 +125,9 @@ TEST(script_errors, hint_at_lua_where_a_line_is_matlab) {
     check({
         {"local y = x'", "lesson.lua:1: unterminated string; the transpose is A:t(); a vector is already a column"},
         {"local z = x.*y",
-         "lesson.lua:1: expected a name before '*'; write x*y for vectors and A:times(B) for matrices, instead of .*"},
-        {"local z = x./y", "lesson.lua:1: expected a name before '/'; for vectors write x/y instead of ./"},
-        {"local z = x.^2", "lesson.lua:1: expected a name before '^'; for vectors write x^2 instead of .^"},
+         "lesson.lua:1: expected a name before '*'; write x*y for vectors and A:times(B) for matrices, instead of x.*y and A.*B"},
+        {"local z = x./y", "lesson.lua:1: expected a name before '/'; for vectors, write x/y instead of x./y"},
+        {"local z = x.^2", "lesson.lua:1: expected a name before '^'; for vectors, write x^2 instead of x.^2"},
         {"local k = 0:N-1",
          "lesson.lua:1: unexpected ':'; write a range as range(first, last) or range(first, step, last), and a part of "
          "a vector v as v:range(i, j)"},
@@ -145,7 +145,7 @@ TEST(script_errors, hint_at_lua_where_a_line_is_matlab) {
         {"local x = {}\nx(end+1) = 3",
          "lesson.lua:2: unexpected 'end'; the last element is x[#x]; vector{x, y} appends y to x"},
         {"print(A[1,2])", "lesson.lua:1: expected ']' before ','; the element in row 1 and column 2 is A[{1, 2}]"},
-        {"local b = a > 1 ? 2 : 3", "lesson.lua:1: unexpected '?'; write if ... then ... else ... end instead of ?"},
+        {"local b = a > 1 ? 2 : 3", "lesson.lua:1: unexpected '?'; Lua has no '?' operator; write if ... then ... else ... end"},
         {"print(1) end", "lesson.lua:1: unexpected 'end': no block is open"},
         {"print(2 + 1i)",
          "lesson.lua:1: unexpected '1i'; dynlab has no complex arithmetic; complex numbers returned by functions have "
@@ -153,11 +153,11 @@ TEST(script_errors, hint_at_lua_where_a_line_is_matlab) {
         {"if a != b then end", "lesson.lua:1: expected 'then' before '!'; write 'not equal' as ~= in Lua"},
         {"if a = b then end", "lesson.lua:1: expected 'then' before '='; to compare, write == instead of ="},
         {"local s = 1 + ...\n 2", "lesson.lua:2: unexpected '2'"},
-        {"for k = 1:10\nend", "lesson.lua:1: expected ',' before ':'; write a loop as for k = 1, N do ... end"},
+        {"for k = 1:10\nend", "lesson.lua:1: expected ',' before ':'; write a loop in the form: for k = 1, N do ... end"},
         {"local x = A\\b", "lesson.lua:1: unexpected '\\'; write A\\b as solve(A, b)"},
-        {"if true then\nprint(1)\n", "lesson.lua:1: the 'if' of line 1 has no 'end'"},
-        {"for i = 1, 2 do print(1)", "lesson.lua:1: the 'for' of line 1 has no 'end'"},
-        {"for i = 1, 2 do\nprint(1)", "lesson.lua:1: the 'for' of line 1 has no 'end'"},
+        {"if true then\nprint(1)\n", "lesson.lua:1: the 'if' in line 1 has no 'end'"},
+        {"for i = 1, 2 do print(1)", "lesson.lua:1: the 'for' in line 1 has no 'end'"},
+        {"for i = 1, 2 do\nprint(1)", "lesson.lua:1: the 'for' in line 1 has no 'end'"},
     });
 }
 
@@ -165,18 +165,18 @@ TEST(script_errors, hint_at_lua_where_a_line_is_matlab) {
 TEST(script_errors, name_the_line_where_something_is_missing) {
     const std::string below = "\n-- %% [markdown]\n-- Words, else if not.\n\n-- %%\nlocal z = 1\nprint(z)\n";
     check({
-        {"local x = 1\nfor i = 1, 3 do\n  x = x + i\n" + below, "lesson.lua:2: the 'for' of line 2 has no 'end'"},
+        {"local x = 1\nfor i = 1, 3 do\n  x = x + i\n" + below, "lesson.lua:2: the 'for' in line 2 has no 'end'"},
         {"local function f(x)\n  if x > 1 then\n    return 1\nend\n" + below,
-         "lesson.lua:2: the 'if' of line 2 has no 'end'"},
+         "lesson.lua:2: the 'if' in line 2 has no 'end'"},
         {"local function f(x)\n  while x > 1 do\n    x = x/2\n  return x\nend\nlocal y = f(3)\n" + below,
-         "lesson.lua:2: the 'while' of line 2 has no 'end'"},
+         "lesson.lua:2: the 'while' in line 2 has no 'end'"},
         {"if 1 > 2 then\n  print(1)\nelse if 2 > 1 then\n  print(2)\nend\n" + below,
          "lesson.lua:3: an 'end' is missing, because 'else if' opens a second block; write elseif"},
-        {"for i = 1, 2 do if i > 1 then print(i) end\n" + below, "lesson.lua:1: the 'for' of line 1 has no 'end'"},
+        {"for i = 1, 2 do if i > 1 then print(i) end\n" + below, "lesson.lua:1: the 'for' in line 1 has no 'end'"},
         {"local x = 1 +\n" + below, "lesson.lua:1: the statement is incomplete at the end of the cell"},
         {"local v = {1, 2,\n" + below, "lesson.lua:1: the statement is incomplete at the end of the cell"},
-        {"print(1)\nprint(1, {2,\n3\n", "lesson.lua:2: the '{' of line 2 is not closed: '}' is missing"},
-        {"print(1 +\n2,\n3 3)\n" + below, "lesson.lua:3: the '(' of line 1 is not closed: ')' is missing"},
+        {"print(1)\nprint(1, {2,\n3\n", "lesson.lua:2: the '{' in line 2 is not closed: '}' is missing"},
+        {"print(1 +\n2,\n3 3)\n" + below, "lesson.lua:3: the '(' in line 1 is not closed: ')' is missing"},
     });
 }
 
@@ -189,7 +189,7 @@ TEST(script_errors, name_characters_that_no_program_can_hold) {
         {"local x = 2\u00b7pi", "lesson.lua:1: unexpected character \u00b7 (U+00B7); replace it with *"},
         {"local x =\u00a03", "lesson.lua:1: unexpected character \u00a0 (U+00A0); replace it with a space"},
         {"local l\u00e9ger = 1",
-         "lesson.lua:1: unexpected character \u00e9 (U+00E9); a name may contain only the letters a to z, digits and "
+         "lesson.lua:1: unexpected character \u00e9 (U+00E9); a name may contain only the letters a to z and A to Z, digits and "
          "_"},
         {"local x = '\u00e9' -- \u2013\nprint(y)", "lesson.lua:2: unknown function or variable 'y'"},
         {"local x = 1 \xe9", "lesson.lua:1: unexpected byte that is not UTF-8; save the script as UTF-8"},
@@ -260,8 +260,8 @@ TEST(script_errors, count_one_in_the_singular) {
     const std::string data_set = "local d = iddata({1, 2, 4}, {1, 0, 1}, 1)\n";
     check({
         {"lsim(tf({1, 0}, {2}), {1, 2}, 1)",
-         "lesson.lua:1: lsim: the transfer function has 1 zero but only 0 poles; an improper model cannot be "
-         "simulated, because it needs at least as many poles as zeros"},
+         "lesson.lua:1: lsim: the transfer function has 1 zero but only 0 poles; a simulation needs a "
+         "model with at least as many poles as zeros"},
         {"lsq(matrix{{1}, {2}}, {1})",
          "lesson.lua:1: lsq: least squares: the matrix has 2 rows but the right-hand side has 1 value"},
         {"local y = vector{1} + vector{1, 2}",

@@ -30,7 +30,7 @@ TEST_F(script_load, reports_what_was_assumed_and_feeds_fillmissing) {
     EXPECT_EQ(
         says("local d = load(\"a.txt\") print(fillmissing(d.u)[2], d[\"u [V]\"][3], d.units.u)"),
         "a.txt: units from the headers: time in ms, u in V\na.txt: missing numbers were replaced with NaN: 1 of 3 in u "
-        "(first in line 3). Use fillmissing(u, {method = \"previous\"}) for an input that is logged only when it "
+        "(first on line 3). Use fillmissing(u, {method = \"previous\"}) for an input that is logged only when it "
         "changes, "
         "and fillmissing(y) for an output\na.txt: the numbers have a decimal comma, as in 3,5\n2.25\t3.5\tV\n");
     EXPECT_THAT(complains("print(load(\"a.txt\").y)"), HasSubstr("have no variable 'y'; they have time, u"));
@@ -79,7 +79,7 @@ TEST_F(script_load, does_as_the_options_say) {
     EXPECT_THAT(complains("load(\"a.dat\", {units = {\"V\"}})"), HasSubstr("must be a table such as"));
     EXPECT_THAT(complains("load(\"a.dat\", {unit = {}})"), HasSubstr("'unit'"));
     write_mat_file(folder_.path() / "b.mat", {{"y", {Vector{{1, 2}}}}});
-    EXPECT_THAT(complains("load(\"b.mat\", {skip = 1})"), HasSubstr("option skip is for tables, not for .mat files"));
+    EXPECT_THAT(complains("load(\"b.mat\", {skip = 1})"), HasSubstr("option 'skip' applies only to tables, not to .mat files"));
 }
 
 TEST_F(script_load, data_objects_take_over_the_units_of_columns) {

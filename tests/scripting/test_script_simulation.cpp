@@ -75,7 +75,7 @@ TEST(script_simulation, sim_takes_a_signal_to_noise_ratio) {
     EXPECT_THAT(error_of(kEstimate + "sim(lssvf(d, {2, 1, 0}, 3), d, {noise = true})"),
                 HasSubstr("estimates an equation error"));
     EXPECT_THAT(error_of(kEstimate + "sim(rivc(d, {1, 0, 1, 2, 0}), u, 0.1, {noise = true})"),
-                HasSubstr("has the sampling time 0.05 s"));
+                HasSubstr("the sampling time of the noise model is 0.05 s"));
 }
 
 TEST(script_simulation, bands_as_numbers) {
@@ -124,7 +124,7 @@ TEST(script_simulation, simsd_agrees_with_the_band_of_the_step) {
               "true\ttrue\t30\ntrue\ttrue\t30\ntrue\ttrue\t30\n");
     EXPECT_THAT(error_of("rng(1)\nlocal u = prbs(7, 4)\nlocal d = iddata(lsim(tf({2}, {1, 3}), u, 0.1) + "
                          "0.05*randn(#u), u, 0.1)\nsimsd(srivc(d, {1, 1, 0}), matrix{{1, 2}, {3, 4}}, 0.1)"),
-                HasSubstr("the model has 1 input, but 2 were given"));
+                HasSubstr("the model has 1 input, but the number of input signals is 2"));
 }
 
 TEST(script_simulation, data_of_inputs_are_refused_where_an_output_is_needed) {

@@ -164,7 +164,7 @@ TEST(script_vectors, are_summed_up) {
         printed("print(polyval({1, 2, 3}, 2), polyval({1, 0}, {1, 2}), interp1({0, 1, 2}, {0, 10, 0}, {0.5, 1.5, 2}))"),
         "11\t[1 2]\t[5 5 0]\n");
     EXPECT_EQ(error_of("interp1({0, 1}, {0, 1}, 2)"),
-              "lesson.lua:1: interp1: interpolation at 2 is not possible: x ranges from 0 to 1");
+              "lesson.lua:1: interp1: interpolation at 2 is not possible, because x ranges from 0 to 1. To use the values of the end points outside this range, specify outside = \"hold\"");
 }
 
 TEST(script_vectors, form_matrices) {

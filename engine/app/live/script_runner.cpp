@@ -162,7 +162,9 @@ RunnerNews ScriptRunner::next() {
             if (send_order()) return next();
         }
         RunnerNews died{.kind = "ended", .part = under_way_};
-        died.record.error = RecordedError{split_ ? Message("the process that ran the script has exited") : none_left()};
+        died.record.error =
+            RecordedError{split_ ? Message("the process that ran the script exited unexpectedly; run the script again")
+                                 : none_left()};
         split_ = true;
         stop();
         return died;

@@ -2,7 +2,7 @@
 import { addWords, tr, trIn, trPlural } from "./words.js";
 
 addWords({
-  views: tr("Views"), language: tr("Language"), commands: tr("Commands"), keys: tr("Keys"), close: tr("Close"), cancel: tr("Cancel"),
+  views: tr("Views"), language: tr("Language"), commands: tr("Commands"), keys: tr("Keyboard shortcuts"), close: tr("Close"), cancel: tr("Cancel"),
   ended: tr("dynlab has exited. Run dynlab course page again."), reason: tr("Reason"), unitDay: trIn("unit of time", "d"),
   time: tr("Time"), group: tr("Group"), assignment: tr("Assignment"), 
   download: tr("Download {}"), name: tr("Name"), unsaved: trPlural("{} mark is not stored yet", "{} marks are not stored yet"),
@@ -14,12 +14,12 @@ addWords({
   noWork: tr("This lab has no submissions yet."), beingRead: trPlural("{} submission is being read", "{} submissions are being read"),
   noAnswer_: tr("no answer"), unreadable_: tr("cannot be read: {}"), sameAs: trPlural("the same text in {} other submission", "the same text in {} other submissions"),
   whole: tr("Show all ({} kB)"), comment: tr("Comment"), commentAbout: tr("Comment for the student"), otherPoints: tr("Other number of points"),
-  pointsOf: tr("{} of {}"), noMark: tr("not marked"), changed: tr("was changed elsewhere"), undo: tr("Undo"), showKeys: tr("Press ? for the keys"),
+  pointsOf: tr("{} of {}"), noMark: tr("not marked"), changed: tr("was changed elsewhere"), undo: tr("Undo"), showKeys: tr("Press ? to show the keyboard shortcuts"),
   rubric: tr("Points"), notGradedYet: tr("The lab is not graded yet, so the maximum points of this check are unknown."),
   keyDigits: tr("award these points and go to the next answer"), keyEnter: tr("award all points and go to the next answer"),
   keyMove: tr("go to the next or previous answer"), keyComment: tr("write a comment"), keyLetters: tr("add or remove a comment that was used before"),
   keyPoints: tr("enter another number of points"), keyUndo: tr("undo the last mark entered in this window"), keyWhole: tr("show all of a long answer"),
-  keyHelp: tr("show these keys"), nothingToUndo: tr("Nothing to undo."), enter: tr("Enter"),
+  keyHelp: tr("show these keyboard shortcuts"), nothingToUndo: tr("Nothing to undo."), enter: tr("Enter"),
 
   // Today
   today: tr("Today"), nothingToDo: tr("Nothing to do."), noAssignments: tr("The course has no assignments yet."),
@@ -56,7 +56,7 @@ addWords({
   marks: tr("Marks"), total: tr("Total"), weight: tr("weight {}"), changes: trPlural("{} change since the export of {}", "{} changes since the export of {}"),
   neverExported: tr("The marks have not been exported yet."), noChanges: tr("No changes since the export of {}."), exportMarks: tr("Export the marks"),
   platform: tr("Moodle or Canvas"), worksheet: tr("Moodle's grading worksheet or Canvas's gradebook, as downloaded"), fillIn: tr("Fill in the marks"),
-  column: tr("Column in Canvas"), column_: tr("Column"), was: trIn("cell", "before"), is: trIn("cell", "now"), wholeCourse: tr("the total of the course"),
+  column: tr("Column in Canvas"), column_: tr("Column"), was: trIn("cell", "before"), is: trIn("cell", "now"), wholeCourse: tr("course total"),
   missingMark: tr("missing"), openMark: tr("not marked"),
 });
 export { browserLanguage, label, language, languages, number, say, useLanguage } from "./words.js";

@@ -218,7 +218,8 @@ DataSelection suggested_order(const DataChoice& choice) {
         if (column.role == "time") order.time = column.name;
     }
     if (order.inputs.empty() || order.outputs.empty())
-        throw EnvironmentError("{} does not contain two signals of equal length that are not constant", choice.data);
+        throw EnvironmentError("{} must contain at least two signals of equal length that are not constant",
+                               choice.data);
     return order;
 }
 

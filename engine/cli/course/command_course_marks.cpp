@@ -93,7 +93,8 @@ void print_penalties_and_gaps(Course& course, const Assignment& a, const Marks& 
             print_zeros(group.name, mark.zeros);
             for (const StudentMark& own : mark.students) print_zeros(group.name + ", " + own.student, own.zeros);
             if (a.is_report() && mark.scored == 1 && a.reviews > 1)
-                std::cout << terminal_text(message_text(Message("{} is based on only one review.", group.name)))
+                std::cout << terminal_text(
+                                 message_text(Message("The mark of {} is based on only one review.", group.name)))
                           << '\n';
             std::vector<std::string> forgotten;
             for (std::size_t c = 0; c < a.criteria.size(); ++c)

@@ -91,9 +91,13 @@ int send(const CourseArguments& where, const PeerArguments& args, Way way) {
                              done.before, done.stopped, done.waiting,
                              done.held > 0 ? fmt::format(", {} withheld", done.held) : "", done.folder.string());
     if (!done.unreviewed.empty())
-        std::cout << terminal_text(message_text(Message("No review: {}.", listed(done.unreviewed)))) << '\n';
+        std::cout << terminal_text(
+                         message_text(Message("Groups without a review of their report: {}.", listed(done.unreviewed))))
+                  << '\n';
     if (!done.reviewed_once.empty())
-        std::cout << terminal_text(message_text(Message("Only one review: {}.", listed(done.reviewed_once)))) << '\n';
+        std::cout << terminal_text(message_text(
+                         Message("Groups with only one review of their report: {}.", listed(done.reviewed_once))))
+                  << '\n';
     for (const std::string& file : done.removed)
         std::cout << terminal_text(fmt::format("Removed from the folder: {}\n", file));
     return done.stopped == 0 ? kDone : kFailed;

@@ -31,7 +31,9 @@ Lesson lesson_to_help(HintArguments& args) {
     if (args.language.empty()) args.language = language_of_work(folder);
     speak(args.language);
     const std::string name = read_percent_script(folder / "analysis.lua").header.lesson;
-    if (name.empty()) throw EnvironmentError("{} does not specify a lesson", (folder / "analysis.lua").string());
+    if (name.empty())
+        throw EnvironmentError("{} does not specify a lesson; add a line \"lesson: NAME\" to its header",
+                               (folder / "analysis.lua").string());
     args.lesson = name;
     return find_lesson(name);
 }
@@ -49,7 +51,8 @@ int list_hints(const Lesson& lesson, const Hints& hints, const std::string& name
     for (const auto& [question, stages] : hints)
         say(Message("question {}   hints: {}, seen: {}", fmt::format("{:>2}", question), stages.size(),
                     std::min(HintsSeen(lesson.slug, question).count(), stages.size())));
-    say(Message("\nThe first hint for a question:  dynlab hint {} {}", name, hints.begin()->first));
+    say(Message("\nTo show the first hint for a question, run, for example:  dynlab hint {} {}", name,
+                hints.begin()->first));
     return kDone;
 }
 
@@ -83,12 +86,14 @@ int give_hint(HintArguments args) {
     show_stages(stages, shown);
     seen.save_entry(std::max(shown, before));
     if (const std::size_t left = stages.size() - shown; left > 0)
-        say(Message("\n{} more:  dynlab hint {} {} --next", left, name, args.question));
+        say(Message("\nHints remaining: {}. To show the next hint, run:  dynlab hint {} {} --next", left, name,
+                    args.question));
     else
         say(args.language.empty() || args.language == "en"
-                ? Message("\nThis is the last hint. The reference solution:  dynlab report {}", lesson.slug)
-                : Message("\nThis is the last hint. The reference solution:  dynlab report {} --lang {}", lesson.slug,
-                          args.language));
+                ? Message("\nThis is the last hint. To create the reference solution, run:  dynlab report {}",
+                          lesson.slug)
+                : Message("\nThis is the last hint. To create the reference solution, run:  dynlab report {} --lang {}",
+                          lesson.slug, args.language));
     return kDone;
 }
 

@@ -269,7 +269,7 @@ class AnonymitySearch {
         if (!author_.empty())
             result.push_back({"author-named", Severity::kHint, 0, "",
                               Message("The document information contains an author: \"{}\".", printable(author_, 60)),
-                              Message("Leave the author empty, because reports are reviewed anonymously.")});
+                              Message("Leave the author field empty, because reports are reviewed anonymously.")});
         if (!unsearchable_.empty() && !matcher_.empty())
             result.push_back({"not-searchable", Severity::kHint, unsearchable_.front(), "",
                               Message("Pictures, and pages without text, cannot be searched for names (pages: {}).",

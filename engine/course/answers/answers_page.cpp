@@ -114,8 +114,9 @@ class MarkSheet {
         table_ = read_text_table(file_);
         for (const char* name : kColumns)
             if (!table_.column(name))
-                throw EnvironmentError("{}: the column {} is missing; restore the column, or move the file elsewhere",
-                                       file_.string(), name);
+                throw EnvironmentError(
+                    "{}: the column \"{}\" is missing; restore the column, or move the file elsewhere", file_.string(),
+                    name);
         for (std::size_t i = 0; i < table_.rows.size(); ++i) {
             const auto number = read_number<int>(cell(i, "number"));
             if (!number || *number < 1)

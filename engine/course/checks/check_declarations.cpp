@@ -51,7 +51,7 @@ int kept_option(const Options& options, const char* name, int type, const Messag
 double points_option(const Options& options, const std::string& id, double fallback) {
     const double points = options.number("points", fallback);
     if (!(points > 0) || points > kMaxPointCount)
-        throw InvalidArgument("the points of \"{}\" must be a number above 0, at most 1000", id);
+        throw InvalidArgument("the points of \"{}\" must be a number greater than 0 and at most 1000", id);
     return points;
 }
 

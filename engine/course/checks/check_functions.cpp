@@ -365,8 +365,8 @@ void keep_secret(const CheckSession& session, bool ended, CheckOutcome& outcome)
     if (outcome.for_instructor.empty()) outcome.for_instructor = std::move(outcome.message);
     outcome.message = ended ? Message("On a data set that you have not seen, the answer does not earn full points.")
                             : Message(
-                                  "On a data set that you have not seen, the check ended with an error: the answer has "
-                                  "the wrong type or size.");
+                                  "On a data set that you have not seen, the check ended with an error. The answer "
+                                  "probably has the wrong type or size.");
 }
 
 int store_outcome(Call& call) {

@@ -35,7 +35,8 @@ struct MarkedStudent : Recipient {
 
 std::size_t needed_column(const TextTable& table, const char* name, const fs::path& file) {
     if (const auto column = table.column(name)) return *column;
-    throw EnvironmentError("{} has no column {}; expected a gradebook written by dynlab grade", file.string(), name);
+    throw EnvironmentError("{} has no column \"{}\"; expected a gradebook written by dynlab grade", file.string(),
+                           name);
 }
 
 /// The participant's number and name in "Anna Müller_900000_assignsubmission_file_".

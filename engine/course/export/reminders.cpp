@@ -97,8 +97,8 @@ Mail mail_of(const Reminder& reminder, const Student& student, const Assignment&
     const Reader reader{catalog_of(student.language.empty() ? "en" : student.language)};
     const std::string& name = student.name.empty() ? student.id : student.name;
     std::string text = message_text(Message("Hello {},", name), reader) + "\n\n";
-    text += message_text(Message("the following parts of {} for {} are missing ({}):", reminder.group.name,
-                                 assignment.name, course),
+    text += message_text(Message("the following parts of the submission of {} for {} are missing ({}):",
+                                 reminder.group.name, assignment.name, course),
                          reader) +
             "\n\n";
     for (const Message& one : reminder.missing) text += "* " + message_text(one, reader) + "\n";

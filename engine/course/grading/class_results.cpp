@@ -261,7 +261,7 @@ RecordedFigure histogram_of(const Vector& points, double possible) {
     const double width = std::max(1.0, std::ceil(possible / kMaxBars)), bars = std::ceil(possible / width) + 1;
     HistogramOptions options;
     options.edges = Vector::LinSpaced(static_cast<Index>(bars) + 1, -0.5 * width, (bars - 0.5) * width);
-    options.x_label = Message("points of {}", points_text(possible));
+    options.x_label = Message("points out of {}", points_text(possible));
     options.y_label = Message("submissions");
     RecordedFigure figure;
     figure.figure = std::make_shared<const Figure>(histogram(points, options));

@@ -260,10 +260,10 @@ class FolderCheck {
             const bool both = !code.empty() && !words.empty();
             add("answer-open", Severity::kRule, fmt::format("analysis.lua:{}", line),
                 asked.empty() ? Message("The line \"{}\" is still in the text.", one)
-                : both ? Message("Question {} is open: the lines \"{}\" and \"{}\" are still in the text.", asked, code,
-                                 words)
-                       : Message("Question {} is open: the line \"{}\" is still in the text.", asked, one),
-                Message("Replace it with your own answer."));
+                : both ? Message("Question {} is unanswered: the lines \"{}\" and \"{}\" are still in the text.", asked,
+                                 code, words)
+                       : Message("Question {} is unanswered: the line \"{}\" is still in the text.", asked, one),
+                Message("Replace the placeholder text with your own answer."));
         }
     }
 
@@ -323,7 +323,7 @@ class FolderCheck {
         fs::copy_file(copy() / "report.md", folder / "report.en.md");
         const bool own_data = fs::symlink_status(copy() / "data").type() == fs::file_type::directory;
         if (own_data) fs::copy(copy() / "data", folder / "data", fs::copy_options::recursive);
-        return Lesson{slug.empty() ? "of the folder" : slug, folder};
+        return Lesson{slug.empty() ? "(unnamed)" : slug, folder};
     }
 
     /// The checks of the lesson that students may read; what falls short is a hint, as marks are given elsewhere.
@@ -342,7 +342,7 @@ class FolderCheck {
         setup.jobs = static_cast<int>(std::thread::hardware_concurrency());
         const GradingRules::GroupSeed own = group_seed_of(copy() / "data");
         const Grade grade = GradingRules(setup).grade(folder_.filename().string(), copy(), own);
-        const Message name = slug.empty() ? Message("of the folder") : Message::verbatim(lesson->slug);
+        const Message name = slug.empty() ? Message("(unnamed)") : Message::verbatim(lesson->slug);
         result_.checked.push_back(Message("checks of lesson {}: {} of {} points", name, points_number(grade.earned()),
                                           points_number(grade.possible())));
         for (const CheckGrade& check : grade.checks) {

@@ -241,11 +241,11 @@ std::vector<std::vector<EvaluatedCheck>> GradingRules::evaluated(
     std::vector<Work> works;
     for (const CheckedSubmission& submission : submissions) works.push_back({"", submission, {}, ""});
     auto result = checked(works, kSingleTime);
-    if (!result.output) throw EnvironmentError("the checks do not terminate: {}", result.reason);
+    if (!result.output) throw EnvironmentError("the checks did not finish: {}", result.reason);
     std::vector<std::vector<EvaluatedCheck>> all;
     for (GradedSubmission& submission_result : result.output->judged) {
         if (!submission_result.reason.empty())
-            throw EnvironmentError("the checks do not terminate: {}", submission_result.reason);
+            throw EnvironmentError("the checks did not finish: {}", submission_result.reason);
         all.push_back(std::move(submission_result.checks));
     }
     return all;

@@ -85,8 +85,9 @@ void look_at_solutions(const Lesson& lesson, Faults& faults) {
         const PercentScript script = read_percent_script(lesson.script());
         const std::string starter = without_solutions(script.source, lesson.script(), script.header.language);
         if (starter == script.source)
-            faults.add(lesson.script(), 0,
-                       Message("BEGIN SOLUTION and END SOLUTION enclose no line, so students get the complete script"));
+            faults.add(
+                lesson.script(), 0,
+                Message("BEGIN SOLUTION and END SOLUTION enclose no lines, so students get the complete script"));
         if (script.header.title.empty()) faults.add(lesson.script(), 0, Message("the header has no title"));
         if (script.header.lesson != lesson.slug)
             faults.add(lesson.script(), 0,

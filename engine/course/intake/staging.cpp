@@ -163,8 +163,8 @@ class Stager {
                 "Several folders contain an analysis.lua, and dynlab cannot determine the newest file: {}. Submit only "
                 "one of these folders.",
                 listed_places(found));
-        return staged(*newest,
-                      Message("of {}, dynlab used \"{}\", the newest file", listed_places(found), newest->shown));
+        return staged(*newest, Message("of the files {}, dynlab used \"{}\", the newest file", listed_places(found),
+                                       newest->shown));
     }
 
   private:
@@ -257,7 +257,7 @@ class Stager {
                        : with_rest(Message("No file of the submission can be read, and analysis.lua is missing."));
         if (!near.empty())
             return with_rest(
-                Message("The submission contains no analysis.lua, but {}: submit this file under the name {}.",
+                Message("The submission contains no analysis.lua, but {}: submit the correct file under the name {}.",
                         listed(shortened_list(near)), notebook ? "analysis.ipynb" : "analysis.lua"));
         if (const std::string kind = closed_kind(others); !kind.empty())
             return with_rest(

@@ -47,7 +47,7 @@ class DeadlineTable {
         const std::string text = cell(row, column);
         if (text.empty()) return {};
         const std::optional<std::int64_t> value = duration_of(text);
-        if (!value) fail(row, column, Message("a time such as 15 min, 3 h or 2 d"));
+        if (!value) fail(row, column, Message("a duration such as 15 min, 3 h or 2 d"));
         return value;
     }
     [[noreturn]] void fail(std::size_t row, const char* column, const Message& requested) const {

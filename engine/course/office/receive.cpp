@@ -162,12 +162,12 @@ class SubmissionReceiver {
         if (!released && !(sent && over)) return;
         if (has_any(candidate, candidate.part, sha256_of_file(candidate.file->file))) return;
         throw released ? EnvironmentError(
-                             "the reviews of {} are already released: did you mean dynlab course submit --stage final? "
-                             "To submit a first version anyway, give --first",
+                             "the reviews of the report of {} are already released: did you mean dynlab course submit "
+                             "--stage final? To submit a first version anyway, give --first",
                              candidate.group.name)
                        : EnvironmentError(
-                             "the reviews of {} are already due: did you mean dynlab course submit --stage final? To "
-                             "submit a first version anyway, give --first",
+                             "the reviews of the report of {} are already due: did you mean dynlab course submit "
+                             "--stage final? To submit a first version anyway, give --first",
                              candidate.group.name);
     }
 

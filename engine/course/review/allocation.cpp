@@ -78,15 +78,16 @@ class Allocator {
     void refuse_impossible() const {
         const int others = static_cast<int>(order_.size()) - 1;
         if (problem_.fixed.empty() && problem_.loose.empty() && problem_.reviews > others)
-            throw order_.size() == 1
-                ? InvalidArgument(
-                      "each group should write {} reviews, but only {} has a report, so {} can be reviewed: wait for "
-                      "more first versions, or decrease --reviews of the assignment",
-                      problem_.reviews, order_.size(), std::max(0, others))
-                : InvalidArgument(
-                      "each group should write {} reviews, but only {} have a report, so {} can be reviewed: wait for "
-                      "more first versions, or decrease --reviews of the assignment",
-                      problem_.reviews, order_.size(), std::max(0, others));
+            throw order_.size() == 1 ? InvalidArgument(
+                                           "each group should write {} reviews, but only {} group has a report, so the "
+                                           "largest possible number of reviews per group is {}. Wait for more first "
+                                           "versions, or decrease --reviews of the assignment",
+                                           problem_.reviews, order_.size(), std::max(0, others))
+                                     : InvalidArgument(
+                                           "each group should write {} reviews, but only {} groups have a report, so "
+                                           "the largest possible number of reviews per group is {}. Wait for more "
+                                           "first versions, or decrease --reviews of the assignment",
+                                           problem_.reviews, order_.size(), std::max(0, others));
     }
 
     void start_with_circle() {
@@ -266,14 +267,14 @@ class Allocator {
             more += board_.writes(i) > requested_ || board_.gets(i) > requested_;
         }
         if (few_written + few_got > 0)
-            say(
-                Message("Groups that write too few reviews: {}. Reports that receive too few reviews: {}. The "
-                        "requested number is {}, but common members and existing reviews allow no other allocation.",
-                        few_written, few_got, requested_));
+            say(Message(
+                "Groups that write too few reviews: {}. Reports that receive too few reviews: {}. The requested number "
+                "of reviews is {}, but common members and existing reviews allow no other allocation.",
+                few_written, few_got, requested_));
         if (more > 0)
             say(
-                Message("Groups that write or receive one extra review: {}. The requested number is {}, but existing "
-                        "reviews and sent copies are kept.",
+                Message("Groups that write or receive one extra review: {}. The requested number of reviews is {}, but "
+                        "existing reviews and sent copies are kept.",
                         more, requested_));
         if (allocation.swapped > 0)
             say(plural(allocation.swapped,

@@ -47,7 +47,7 @@ void read_pack(const fs::path& pack, Isolation level, const fs::path& program, R
         if (const auto text = text_of_file(made.path() / "report.md")) version.source = words_of_markdown(*text);
         if (const auto text = text_of_file(made.path() / "record.json")) version.record = record_from_json(*text);
     } catch (const SubmissionError& error) {
-        version.problems.push_back(Message("The pack: {}", error.message()));
+        version.problems.push_back(Message("The pack cannot be used: {}", error.message()));
     } catch (const ValueError&) {
         version.problems.push_back(Message("The pack's run results cannot be read."));
     }

@@ -75,8 +75,8 @@ class Unpacker {
   private:
     [[noreturn]] void fail() const {
         const char* const reason = archive_error_string(archive_.get());
-        if (reason != nullptr) throw EnvironmentError("the archive cannot be read: {}", reason);
-        throw EnvironmentError("the archive cannot be read: it is damaged");
+        if (reason != nullptr) throw EnvironmentError("reading the archive failed ({})", reason);
+        throw EnvironmentError("the archive is damaged");
     }
 
     void take(archive_entry* entry) {
@@ -126,7 +126,7 @@ class Unpacker {
         if (count < 0) fail();
         out.close();  // the last bytes may not find room either
         if (!out)
-            throw EnvironmentError("the archive cannot be unpacked: {}: {}", file.filename().string(),
+            throw EnvironmentError("the file \"{}\" cannot be written ({})", file.filename().string(),
                                    system_reason(errno));
     }
 

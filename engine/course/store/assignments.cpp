@@ -280,8 +280,8 @@ Costs costs_of(const std::string& text) {
         const auto value = read_number<double>(points);
         if (known == std::end(kCosts) || !value || !(*value >= 0 && *value <= 100))
             throw InvalidArgument(
-                "penalties are late-day, late-most, missing-final, late-review and missing-review, each from 0 to 100 "
-                "percentage points, such as late-day:10,missing-review:25, but \"{}:{}\" was given",
+                "\"{}:{}\" is not a valid penalty. The penalties are late-day, late-most, missing-final, late-review "
+                "and missing-review, each from 0 to 100 percentage points. An example is late-day:10,missing-review:25",
                 name, points);
         costs.*(known->second) = *value;
     }

@@ -205,7 +205,7 @@ Group group_named(Course& course, const std::string& name) {
     const Owners owners(students, names);
     const Owners::Found found = owners.called(name);
     if (const auto group = std::ranges::find(groups, found.group, &Group::name); group != groups.end()) return *group;
-    if (found.doubtful) throw InvalidArgument("\"{}\" matches several groups: {}", name, found.error_reason);
+    if (found.doubtful) throw InvalidArgument("\"{}\" is ambiguous: {}", name, found.error_reason);
     const auto near = nearest_word(name, owners.names());
     if (near) throw InvalidArgument("the group \"{}\" does not exist; did you mean {}?", name, *near);
     throw names.empty() ? InvalidArgument("the group \"{}\" does not exist: no group has submitted anything yet", name)

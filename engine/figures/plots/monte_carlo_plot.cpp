@@ -93,7 +93,7 @@ Panel histogram_panel(const Vector& values, std::pair<double, double> range, std
     Figure figure = histogram(Eigen::Map<const Vector>(shown.data(), static_cast<Index>(shown.size())), options);
     Panel panel = std::move(figure.panels.front());
     if (const Index outside = values.size() - count; outside > 0)
-        panel.title = Message("{} of {} outside", outside, values.size());
+        panel.title = Message("{} of {} outside the axes", outside, values.size());
     panel.x_range = range;
     panel.curves.front().color = color;
     return panel;
@@ -202,7 +202,7 @@ Message outside_text(const Panel& panel) {
         for (Index k = 0; k < std::min(curve.x.size(), curve.y.size()); ++k, ++all)  // not validated yet
             if (!within(panel.x_range, curve.x[k]) || !within(panel.y_range, curve.y[k])) ++outside;
     }
-    return outside > 0 ? Message("{} of {} outside", outside, all) : Message();
+    return outside > 0 ? Message("{} of {} outside the axes", outside, all) : Message();
 }
 
 Figure monte_carlo_scatter(const MonteCarlo& study, const std::string& x_name, const std::string& y_name,

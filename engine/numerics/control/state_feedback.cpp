@@ -124,7 +124,7 @@ StateFeedback pole_placement(const MatrixView& A, const MatrixView& B, const Com
     if (misplacement(poles, result.poles) > 1e-4)
         throw InvalidArgument(
             "rounding errors prevent the pole placement: the scales of the states differ too much, or the input has "
-            "almost no effect on one of the states");
+            "almost no effect on one state. Use other units for the states, or move the poles less");
     return result;
 }
 

@@ -119,8 +119,8 @@ Forecast forecast(const LinearRegression& regression, const VectorView& phi, dou
     const Index degrees = regression.residuals.size() - regression.rank;
     if (degrees < 1)
         throw InvalidArgument(
-            "The number of parameters equals the number of measurements, so the error of a forecast cannot be "
-            "estimated");
+            "The number of measurements is not greater than the number of parameters, so the error of a forecast "
+            "cannot be estimated. Use more measurements");
     Forecast result;
     result.value = phi.dot(regression.theta);
     const double variance = phi.dot(regression.covariance * phi);

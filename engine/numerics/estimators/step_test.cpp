@@ -114,14 +114,15 @@ StepTestResult step_second_order(const IdData& data) {
     const double logarithm = std::log(D1), pi = std::numbers::pi;
     if (D1 >= 1)
         throw InvalidArgument(
-            "The first overshoot is as high as the step itself, which is impossible for a damped second-order system");
+            "The first overshoot is at least as large as the change of the output, which is impossible for a damped "
+            "second-order system");
     const double z = std::sqrt(logarithm * logarithm / (logarithm * logarithm + pi * pi));
     const double w0 = pi / ((peak.time - step_data.step_time) * std::sqrt(1 - z * z));
     const double K = result.parameters[0];
     result.parameters << K, z, w0;
     result.points = {peak};
     result.model = TransferFunction(Vector::Constant(1, K * w0 * w0), Vector{{1.0, 2 * z * w0, w0 * w0}});
-    result.message = Message("The first overshoot is {} % of the change, {} s after the step.",
+    result.message = Message("The first overshoot is {} % of the change of the output, {} s after the step.",
                              significant(100 * D1, kDigits), significant(peak.time - step_data.step_time, kDigits));
     return result;
 }

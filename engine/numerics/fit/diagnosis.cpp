@@ -61,10 +61,11 @@ void check_transfer_data(const std::string& method, const IdData& data, const Tr
     structure.validate();
     check_inputs(method, data);
     if (data.input_count() != structure.inputs || data.output_count() != structure.outputs)
-        throw InvalidArgument("{}: the model has {} and {}, but the data have {} and {}", method,
-                              plural(structure.inputs, "{} input", "{} inputs"),
-                              plural(structure.outputs, "{} output", "{} outputs"), data.input_count(),
-                              data.output_count());
+        throw InvalidArgument(
+            "{}: the model has {} and {}, but the data have {} and {}. Change the orders, or select channels with "
+            "data:select",
+            method, plural(structure.inputs, "{} input", "{} inputs"),
+            plural(structure.outputs, "{} output", "{} outputs"), data.input_count(), data.output_count());
     const Index requested = kSamplesPerParameter * structure.parameter_count();
     if (data.sample_count() < requested)
         throw InvalidArgument("{}: at least {} samples are needed for {} parameters, but the data have {}", method,
@@ -144,7 +145,8 @@ void warn_of_cancellation(Fit& fit) {
             for (const Complex& pole : poles)
                 if (std::abs(zero - pole) < kCancellation * std::abs(pole)) {
                     fit.warnings.push_back(
-                        Message("A pole near {} and a zero nearly cancel: fewer poles and zeros may be sufficient.",
+                        Message("A pole with the real part {} and a zero nearly cancel: fewer poles and zeros may be "
+                                "sufficient.",
                                 significant(pole.real(), 3)));
                     return;
                 }

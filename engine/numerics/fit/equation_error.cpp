@@ -88,8 +88,8 @@ void check_equation_error(const std::string& method, const IdData& data, const P
     const Index d = orders.parameter_count(), equations = ArxEquations(data, orders).count();
     if (equations > d) return;
     throw InvalidArgument(
-        "{} needs more equations than its {}, but the data provide {}: the data have {}, and the first {} of each "
-        "experiment are used as past values",
+        "{} estimates {} and needs more equations than parameters, but the data provide only {}. The data have {}, and "
+        "the first {} of each experiment are used as past values. Use more data or lower orders",
         method, plural(d, "{} parameter", "{} parameters"), equations,
         plural(data.sample_count(), "{} sample", "{} samples"), orders.past());
 }

@@ -157,7 +157,8 @@ Vector best_cutoff_start(const IdData& data, const TransferStructure& structure,
     }
     if (!best.allFinite())
         throw InvalidArgument(
-            "no initial estimate could be found: the input does not excite the system enough for {} parameters",
+            "no initial estimate could be found, because the input does not excite the system enough for {} "
+            "parameters. Use a richer input, such as a PRBS, or fewer poles and zeros",
             structure.parameter_count());
     return best;
 }

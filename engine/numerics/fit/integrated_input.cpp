@@ -33,8 +33,8 @@ IdData summed_inputs(const IdData& data) {
 FitOptions options_with_integrator(FitOptions options) {
     if (options.offset == Offset::kRemove)
         throw InvalidArgument(
-            "{} \"remove\" cannot be combined with {}, because an integrator has no operating point. Use \"estimate\", "
-            "which adds a constant to the output",
+            "{} = \"remove\" cannot be combined with {}, because an integrator has no operating point. Use "
+            "\"estimate\", which adds a constant to the output",
             OptionName{"offset"}, OptionName{"integration"});
     if (options.initial_state == InitialState::kEstimate) options.offset = Offset::kEstimate;
     if (options.initial_state == InitialState::kAuto && options.offset == Offset::kNone) options.offset = Offset::kAuto;

@@ -98,7 +98,9 @@ void measure_simulation(Fit& fit, const IdData& data) {
         fit.loss += squares / N / outputs;
     }
     if (std::isfinite(fit.loss)) return;
-    fit.warnings.push_back(Message("The simulation of the model diverges on these data: no fit can be computed."));
+    fit.warnings.push_back(
+        Message("The simulation of the model diverges on these data, so no fit can be computed. Check the data and the "
+                "structure."));
 }
 
 bool errors_follow_input(const IdData& data, const Fit& fit) {

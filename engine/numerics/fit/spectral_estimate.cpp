@@ -13,7 +13,8 @@ namespace {
 
 void check_channels(const std::string& caller, const IdData& data) {
     if (data.input_count() == 0)
-        throw InvalidArgument("{}: the data have no input, so no response can be estimated", caller);
+        throw InvalidArgument("{}: the data have no input, so no response can be estimated. Add an input with iddata",
+                              caller);
     if (data.input_count() != 1 || data.output_count() != 1)
         throw InvalidArgument(
             "{}: the data must have one input and one output, but they have {} and {}; select a pair with "

@@ -369,7 +369,7 @@ Message reason_text(const StructureAdvice& missed) {
         case StructureAdviceCode::kLine:
             return Message("the output drifts, or a constant load acts on an integrator");
         case StructureAdviceCode::kLate:
-            return Message("the output responds before the input changes: the input was logged late");
+            return Message("the output responds before the input changes, because the input was logged late");
         case StructureAdviceCode::kHold:
             return Message("the input changes between its samples");
         default:

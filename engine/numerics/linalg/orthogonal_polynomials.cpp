@@ -33,8 +33,8 @@ OrthogonalPolynomials orthogonal_polynomials(const ComplexVector& s, const Vecto
         if (!(length > kDependent * size)) {
             if (j == 0) throw InvalidArgument("the response is zero at all frequencies, so no model can be estimated");
             throw InvalidArgument(
-                "{} frequencies cannot distinguish a polynomial of degree {} from lower degrees: use fewer poles and "
-                "zeros, or a wider band",
+                "{} frequencies cannot distinguish a polynomial of degree {} from polynomials of lower degree: use "
+                "fewer poles and zeros, or a wider band",
                 s.size(), j);
         }
         basis.values.col(j) = next / length;

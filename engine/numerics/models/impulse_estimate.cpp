@@ -36,7 +36,9 @@ void read_dead_time(ImpulseEstimate& estimate, double Ts, Hold hold, double half
 }
 
 Index lags_or_default(const std::string& caller, Index lags, Index shortest) {
-    if (lags < 0) throw InvalidArgument("{}: the number of lags must be positive, but it is {}", caller, lags);
+    if (lags < 0)
+        throw InvalidArgument("{}: the number of lags must be positive, or 0 for the default number, but it is {}",
+                              caller, lags);
     if (lags == 0) lags = std::max<Index>(1, std::min(kDefaultLags, shortest / 5));
     if (kSamplesPerLag * lags > shortest)
         throw InvalidArgument("{}: {} need at least {} samples, but the shortest experiment has {}", caller,

@@ -81,8 +81,9 @@ ProcessModel::ProcessModel(ProcessStructure structure_, Vector parameters_)
     : structure(structure_), parameters(std::move(parameters_)) {
     const std::vector<std::string> names = structure.parameter_names();
     if (parameters.size() == static_cast<Index>(names.size())) return;
-    throw InvalidArgument("process model: {} needs values for the parameters {} ({} values), but {} were given",
-                          structure.text(), listed(names), names.size(), parameters.size());
+    throw InvalidArgument(
+        "process model: {} needs values for the parameters {} ({} values), but the number of values is {}",
+        structure.text(), listed(names), names.size(), parameters.size());
 }
 
 double ProcessModel::parameter(const std::string& name) const {

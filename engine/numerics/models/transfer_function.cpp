@@ -56,8 +56,9 @@ double common_sampling_time(const TransferFunction& a, const TransferFunction& b
     if (a.Ts() == b.Ts() || is_gain(b)) return a.Ts();
     if (is_gain(a)) return b.Ts();
     throw InvalidArgument(
-        "transfer functions with the sampling times {} s and {} s cannot be combined (0 means continuous time)", a.Ts(),
-        b.Ts());
+        "transfer functions with the sampling times {} s and {} s cannot be combined (0 means continuous time). "
+        "Convert one of them with c2d or d2c",
+        a.Ts(), b.Ts());
 }
 
 /// The delay (s) of a discrete model beyond `kept` as poles at zero.
@@ -124,7 +125,7 @@ TransferFunction operator+(const TransferFunction& a, const TransferFunction& b)
         if (Ts > 0) return with_later_poles(a, Ts, common) + with_later_poles(b, Ts, common);
         throw InvalidArgument(
             "transfer functions with the delays {} s and {} s cannot be added: the sum is not a rational function. "
-            "Approximate a delay with pade(G, n)",
+            "Approximate the delays with pade(G, n)",
             a.delay(), b.delay());
     }
     const Vector num = add(multiply(a.num(), b.den()), multiply(b.num(), a.den()));
@@ -166,7 +167,7 @@ TransferFunction feedback(const TransferFunction& forward, const TransferFunctio
     const Vector den = add(multiply(forward.den(), backward.den()), sign > 0 ? Vector(-loop) : loop);
     if (den.isZero(0))
         throw InvalidArgument(
-            "feedback: the closed loop is not well-posed, because the loop gain is one at all frequencies");
+            "feedback: the closed loop is not well-posed, because its denominator is zero at all frequencies");
     return TransferFunction(multiply(forward.num(), backward.den()), den, Ts);
 }
 

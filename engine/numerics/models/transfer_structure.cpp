@@ -197,7 +197,8 @@ TransferStructure TransferStructure::of_models(const std::vector<TransferFunctio
     for (const TransferFunction& G : models) {
         if (G.Ts() > 0)
             throw InvalidArgument(
-                "a start model must be a continuous-time model, but this model is a discrete-time model");
+                "a start model must be a continuous-time model, but this model is a discrete-time model; convert it "
+                "with d2c(G)");
         const Vector den = G.den() / G.den()[0];
         const auto known = std::find(denominators.begin(), denominators.end(), den);
         structure.channels.push_back({known - denominators.begin(), static_cast<int>(G.zero_count()), G.delay()});

@@ -14,7 +14,7 @@ void FirstOrderStepParameters::validate() const {
     if (!std::isfinite(gain) || !std::isfinite(step_height))
         throw InvalidArgument("The gain and the height of the first-order step must be finite numbers");
     if (samples < 2)
-        throw InvalidArgument("The first-order step needs at least 2 samples, but {} were requested", samples);
+        throw InvalidArgument("The number of samples of the first-order step must be at least 2, but is {}", samples);
 }
 
 FirstOrderStepTruth first_order_step_truth(const FirstOrderStepParameters& p) {

@@ -94,7 +94,7 @@ Vector multisine(const VectorView& frequencies, double duration, double Ts) {
 
 Vector rbs(Index count, int hold, RandomStream& random, double low, double high) {
     check_count("rbs", count);
-    if (hold < 1) throw InvalidArgument("rbs: each value must be held for at least 1 sample, but hold is {}", hold);
+    if (hold < 1) throw InvalidArgument("rbs: each value must be held for at least 1 sample, but p is {}", hold);
     Vector signal(count);
     for (Index k = 0; k < count; k += hold)
         signal.segment(k, std::min<Index>(hold, count - k)).setConstant(random.uniform() < 0.5 ? low : high);

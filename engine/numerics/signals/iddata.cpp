@@ -49,8 +49,9 @@ void check_same_units(const std::vector<std::string>& first, const std::vector<s
 
 const Experiment& only_experiment(const IdData& data, const std::string& caller) {
     if (data.experiments.size() != 1)
-        throw InvalidArgument("{}: the data must have one experiment, but they have {}", caller,
-                              data.experiments.size());
+        throw InvalidArgument(
+            "{}: the data must have one experiment, but they have {}; select one with data:experiment(k)", caller,
+            data.experiments.size());
     return data.experiments.front();
 }
 
@@ -204,7 +205,9 @@ std::pair<IdData, IdData> IdData::split(double fraction) const {
 }
 
 IdData IdData::shifted(Index samples) const {
-    if (!regular()) throw InvalidArgument("shift: irregularly sampled data cannot be shifted by whole samples");
+    if (!regular())
+        throw InvalidArgument(
+            "shift: irregularly sampled data cannot be shifted by whole samples; interpolate them first (interp1)");
     IdData result = *this;
     for (Experiment& experiment : result.experiments) {
         const Index lost = std::abs(samples), kept = experiment.y.rows() - lost;

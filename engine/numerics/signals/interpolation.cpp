@@ -25,9 +25,10 @@ Vector interpolate_linearly(const VectorView& x, const VectorView& y, const Vect
     return x_new.unaryExpr([&](double place) {
         if (outside == Outside::kHold) place = std::clamp(place, x[0], x[last]);
         if (!(place >= x[0] && place <= x[last]))
-            throw InvalidArgument("interpolation at {} is not possible: x ranges from {} to {}",
-                                  significant(place, kDigits), significant(x[0], kDigits),
-                                  significant(x[last], kDigits));
+            throw InvalidArgument(
+                "interpolation at {} is not possible, because x ranges from {} to {}. To use the values of the end "
+                "points outside this range, specify outside = \"hold\"",
+                significant(place, kDigits), significant(x[0], kDigits), significant(x[last], kDigits));
         const Index right = std::clamp<Index>(std::upper_bound(x.begin(), x.end(), place) - x.begin(), 1, last);
         const double part = (place - x[right - 1]) / (x[right] - x[right - 1]);
         return y[right - 1] + part * (y[right] - y[right - 1]);

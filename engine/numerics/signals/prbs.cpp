@@ -36,7 +36,7 @@ std::uint32_t parity(std::uint32_t bits) {
 Vector prbs(int stages, int hold, double low, double high) {
     if (stages < kMinStages || stages > kMaxStages)
         throw InvalidArgument("prbs: the number of stages must be between 3 and 18, but it is {}", stages);
-    if (hold < 1) throw InvalidArgument("prbs: each bit must be held for at least 1 sample, but hold is {}", hold);
+    if (hold < 1) throw InvalidArgument("prbs: each bit must be held for at least 1 sample, but p is {}", hold);
     const std::uint32_t feedback = kFeedback[static_cast<std::size_t>(stages - kMinStages)];
     const std::uint32_t all = (1u << stages) - 1;
     std::uint32_t bits = all;

@@ -78,7 +78,8 @@ IdData resample(const IdData& data, Index up, Index down) {
     check_factor("up", up);
     check_factor("down", down);
     if (!data.regular())
-        throw InvalidArgument("resample: the data are sampled irregularly: interpolate them first (interp1)");
+        throw InvalidArgument(
+            "resample: the data are sampled irregularly; interpolate them at equally spaced instants first (interp1)");
     IdData result = data;
     result.Ts = data.Ts * static_cast<double>(down) / static_cast<double>(up);
     for (Experiment& experiment : result.experiments) {

@@ -41,7 +41,9 @@ void find_step(StepData& step_data) {
     const Vector& u = step_data.u;
     const double low = u.minCoeff(), high = u.maxCoeff();
     if (high == low) {
-        if (low == 0) throw InvalidArgument("The input is zero throughout, so the data contain no step");
+        if (low == 0)
+            throw InvalidArgument(
+                "The input is zero in all samples, so the data contain no step. Use data of a step experiment");
         step_data.input_after = low;
         step_data.step_time = step_data.t[0];
         return;
@@ -62,9 +64,11 @@ void find_step(StepData& step_data) {
         departure.tail(u.size() - step_data.step_index).array() -= step_data.input_change();
         Index worst = 0;
         if (departure.cwiseAbs().maxCoeff(&worst) <= tolerance) return;
-        throw InvalidArgument("The input is not a step: at t = {} it is {}, but the two levels are {} and {}",
-                              significant(step_data.t[worst], 6), significant(u[worst], 6),
-                              significant(step_data.input_before, 6), significant(step_data.input_after, 6));
+        throw InvalidArgument(
+            "The input is not a step: at t = {} it is {}, but the two levels are {} and {}. Select one step with "
+            "data:range(i, j)",
+            significant(step_data.t[worst], 6), significant(u[worst], 6), significant(step_data.input_before, 6),
+            significant(step_data.input_after, 6));
     }
     if (starts_high)
         throw InvalidArgument(
@@ -84,8 +88,10 @@ Level level_of(const StepData& step_data, Index first, Index count) {
 void read_levels(StepData& step_data) {
     const Index N = step_data.y.size(), after = N - step_data.step_index;
     if (after < kSamplesAfterStep)
-        throw InvalidArgument("The data have {} after the step, but at least {} are needed to evaluate the response",
-                              plural(after, "{} sample", "{} samples"), kSamplesAfterStep);
+        throw InvalidArgument(
+            "The data have {} after the step, but at least {} are needed to evaluate the response. Use data of a "
+            "longer experiment",
+            plural(after, "{} sample", "{} samples"), kSamplesAfterStep);
     // The sample at the step itself still shows the old level: the output of a system with a lag cannot jump.
     step_data.initial = level_of(step_data, 0, step_data.step_index + 1);
     const Index tail = std::max<Index>(3, after / 10);
@@ -96,7 +102,7 @@ void read_levels(StepData& step_data) {
     if (std::abs(step_data.output_change()) > 5 * uncertainty && step_data.output_change() != 0) return;
     throw InvalidArgument(
         "The output does not respond to the step: it changes from {} to {}, and the noise has a standard deviation of "
-        "{}",
+        "{}. Check the columns, or use a larger step",
         significant(step_data.initial.value, 6), significant(step_data.final.value, 6),
         significant(step_data.noise_std, 6));
 }
@@ -180,7 +186,9 @@ double StepData::crossing_time(double part) const {
         const double before = rise(k - 1), after = rise(k);
         return t[k - 1] + (t[k] - t[k - 1]) * (part - before) / (after - before);
     }
-    throw InvalidArgument("The response never reaches the required fraction of its change");
+    throw InvalidArgument(
+        "The response never reaches the fraction of its change that this method evaluates. Use data of a longer "
+        "experiment");
 }
 
 StepData read_step_data(const IdData& data, double widest_window) {

@@ -45,13 +45,14 @@ void check_loop(const TransferFunction& plant, const LoopController& controller,
     if (controller.sampled()) {
         if (std::abs(controller.C.Ts() - Ts) <= kSameStep * Ts) return;
         throw InvalidArgument(
-            "closed loop: the controller has the sampling time {} s, but the data have {} s; both must be equal",
+            "closed loop: the sampling time of the controller is {} s, but the sampling time of the data is {} s. The "
+            "sampling times must be equal",
             controller.C.Ts(), Ts);
     }
     if (controller.computing_delay > 0)
         throw InvalidArgument(
             "closed loop: a computing delay needs a sampled controller, but this controller is a continuous-time "
-            "model");
+            "model; convert it with c2d(C, Ts)");
     if (plant.delay() > 0 || controller.C.delay() > 0)
         throw InvalidArgument(
             "closed loop: a loop with a delay and a continuous-time controller cannot be simulated exactly; "

@@ -91,7 +91,7 @@ Vector phase_degrees(const TransferFunction& G, const VectorView& w) {
 }
 
 Vector natural_frequency_grid(const TransferFunction& G, Index count) {
-    if (count < 2) throw InvalidArgument("frequency grid: at least 2 points are needed, but {} were requested", count);
+    if (count < 2) throw InvalidArgument("frequency grid: the number of points must be at least 2, but is {}", count);
     constexpr double kDecadesBeyond = 1.5, kDecadesWithoutCorner = 2;
     const Vector corners = corner_frequencies(G);
     const double nyquist = G.continuous() ? 0 : std::numbers::pi / G.Ts();

@@ -100,8 +100,10 @@ void GreySimulator::write_outputs(const GreyInputs& inputs, Index k, bool sensit
                          at_output_);
     for (Index i = 0; i < outputs_; ++i) {
         if (!std::isfinite(at_output_.values[i]))
-            throw SimulationBreakdown("At t = {}, output {} of the model is {}", inputs.t[k], i + 1,
-                                      at_output_.values[i]);
+            throw SimulationBreakdown(
+                "At t = {}, output {} of the model is {}. Check the output equations, for example for a division by "
+                "zero",
+                inputs.t[k], i + 1, at_output_.values[i]);
         result.y(k, i) = at_output_.values[i];
         if (!sensitivities) continue;
         auto row = result.sensitivities.row(i * N + k);
@@ -148,8 +150,10 @@ void GreySimulator::advance_linear(const GreyInputs& inputs, Index k, bool sensi
     }
     x_ = (own_.F * x_ + own_.H0 * u0 + own_.H1 * u1).eval();
     if (!x_.allFinite())
-        throw SimulationBreakdown("At t = {}, the states become infinite: the linear model is unstable",
-                                  inputs.t[k + 1]);
+        throw SimulationBreakdown(
+            "At t = {}, the states become infinite, because the linear model is unstable. Check the matrices, or use "
+            "other parameter values",
+            inputs.t[k + 1]);
 }
 
 GreyTrajectory GreySimulator::run(const Vector& parameters, const GreyInputs& inputs, const Start& from,

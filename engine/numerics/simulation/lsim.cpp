@@ -19,8 +19,8 @@ constexpr double kGridRounding = 1e-9;  // relative difference of two sampling t
 void check_model(const TransferFunction& G) {
     if (G.proper()) return;
     throw InvalidArgument(
-        "lsim: the transfer function has {} but only {}; an improper model cannot be simulated, because it needs at "
-        "least as many poles as zeros",
+        "lsim: the transfer function has {} but only {}; a simulation needs a model with at least as many poles as "
+        "zeros",
         plural(G.zero_count(), "{} zero", "{} zeros"), plural(G.pole_count(), "{} pole", "{} poles"));
 }
 
@@ -36,7 +36,8 @@ Vector initial_state(const VectorView& x0, Index order) {
 void check_discrete_sampling(double model_Ts, double Ts) {
     if (std::abs(model_Ts - Ts) <= kGridRounding * Ts) return;
     throw InvalidArgument(
-        "lsim: the discrete-time model has Ts = {} s, but the data have the sampling time {} s; both must be equal",
+        "lsim: the sampling time of the discrete-time model is {} s, but the sampling time of the data is {} s. The "
+        "sampling times must be equal",
         model_Ts, Ts);
 }
 
@@ -82,7 +83,8 @@ Vector lsim(const TransferFunction& G, const VectorView& u, const VectorView& t,
     if (regular_Ts > 0) return lsim(G, u, regular_Ts, hold, x0);
     if (!G.continuous())
         throw InvalidArgument(
-            "lsim: a discrete-time model needs equally spaced instants, but the time vector is irregular");
+            "lsim: a discrete-time model needs equally spaced instants, but the instants of the time vector are not "
+            "equally spaced");
     check_model(G);
     const StateSpace form = to_state_space(G);
     IrregularFilter filter(form.A, form.B.col(0), form.C, form.D.col(0), hold, G.delay());

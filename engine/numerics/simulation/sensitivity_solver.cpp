@@ -230,8 +230,10 @@ void SensitivitySolver::break_down(const Interval& over, double t, double h) {
     const MessageList states = states_text(x);
     for (Index i = 0; i < n_; ++i)
         if (!std::isfinite(stages_[0].at.values[i]))
-            throw SimulationBreakdown("At t = {}, the derivative of the state {} is {} for {}", t,
-                                      names_[static_cast<std::size_t>(i)], stages_[0].at.values[i], states);
+            throw SimulationBreakdown(
+                "At t = {}, the derivative of the state {} is {} for {}. Check the equations, for example for a "
+                "division by zero",
+                t, names_[static_cast<std::size_t>(i)], stages_[0].at.values[i], states);
     Index fastest = 0;
     (stages_[0].at.values.array().abs() / size_.array().max(1e-300)).maxCoeff(&fastest);
     throw SimulationBreakdown(

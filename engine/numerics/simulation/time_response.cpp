@@ -102,7 +102,7 @@ TimeResponse impulse_response(const TransferFunction& G, const VectorView& t) {
 }
 
 Vector natural_time_grid(const TransferFunction& G, Index count) {
-    if (count < 2) throw InvalidArgument("time grid: at least 2 instants are needed, but {} were requested", count);
+    if (count < 2) throw InvalidArgument("time grid: the number of instants must be at least 2, but is {}", count);
     const double duration = natural_duration(G);
     if (G.continuous()) return Vector::LinSpaced(count, 0, duration);
     constexpr double kMaxSamples = 1e4, kMinSamples = 10;

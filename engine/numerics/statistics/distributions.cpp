@@ -20,8 +20,9 @@ using ChiSquared = boost::math::chi_squared_distribution<double, Policy>;
 void check_arguments(double x, double degrees) {
     if (!(degrees > 0) || !std::isfinite(degrees) || std::isnan(x))
         throw InvalidArgument(
-            "The chi-squared distribution needs a number and positive degrees of freedom, but got {} and {}", x,
-            degrees);
+            "The chi-squared distribution needs a numeric value and positive degrees of freedom, but got {} with {} "
+            "degrees of freedom",
+            x, degrees);
 }
 
 void check_probability(double probability) {

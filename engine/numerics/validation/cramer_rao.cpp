@@ -73,11 +73,13 @@ Matrix cramer_rao_bound(const TransferFunction& system, const VectorView& u, dou
             "many poles as the system and no fewer zeros");
     if (numbers.delay && numbers.numerator > numbers.poles)
         throw InvalidArgument(
-            "The Cramer-Rao bound of a delay needs fewer zeros than poles: this system has direct feedthrough");
+            "The Cramer-Rao bound of a delay needs a system with fewer zeros than poles, but this system has direct "
+            "feedthrough");
     if (u.size() < theta.size())
         throw InvalidArgument(
-            "The Cramer-Rao bound of {} parameters needs at least as many samples, but the data have {}", theta.size(),
-            u.size());
+            "The Cramer-Rao bound of {} parameters needs at least one sample per parameter, but the number of samples "
+            "is {}",
+            theta.size(), u.size());
     const Matrix psi = sensitivities(system, theta, numbers, u, Ts, hold);
     const LeastSquares solved = solve_least_squares(psi, Vector::Zero(psi.rows()));
     if (solved.rank < theta.size()) {

@@ -178,13 +178,12 @@ void find_dead_time(const FittedData& fit, DataIssues& findings) {
         Message("{} responds about {} ({} samples) after {}.", fit.output(),
                 with_unit(significant(delay, 3), fit.data.time_unit), significant(delay / Ts, 3), fit.input());
     const Message remedy =
-        may_be_a_lag(fit)
-            ? Message(
-                  "The cause is a delay or another pole: compare both (tfsrivc with {} poles and a delay, and with {} "
-                  "poles and {} = 0).",
-                  fit.search.candidate.poles, fit.search.candidate.poles + 1, OptionName{"largest_delay"})
-            : Message("Add a dead time to the model ({} of tfsrivc, D in the structure of procsrivc).",
-                      OptionName{"largest_delay"});
+        may_be_a_lag(fit) ? Message(
+                                "The cause is a delay or another pole: compare both (tfsrivc with np = {} and a delay, "
+                                "and with np = {} and {} = 0).",
+                                fit.search.candidate.poles, fit.search.candidate.poles + 1, OptionName{"largest_delay"})
+                          : Message("Add a dead time to the model ({} of tfsrivc, D in the structure of procsrivc).",
+                                    OptionName{"largest_delay"});
     findings.push_back(about(fit, "dead_time", Weight::kNote, sentences({seen, remedy}), delay));
 }
 
@@ -208,8 +207,8 @@ void find_offset(const FittedData& fit, DataIssues& findings) {
         with_unit(rounded_to(offset, deviation / (extrapolated ? 5 : 50)), fit.data.output_units.front());
     const Message seen = extrapolated
                              ? Message(
-                                   "Linear extrapolation of these data yields {} of about {} when {} is zero; the data "
-                                   "cover only {} from {} to {}.",
+                                   "According to a linear extrapolation of these data, {} is about {} when {} is zero; "
+                                   "the data cover only {} from {} to {}.",
                                    fit.output(), level, fit.input(), fit.input(), rounded(fit.u().minCoeff(), 3),
                                    rounded(fit.u().maxCoeff(), 3))
                              : Message("{} is at rest at about {} when {} is zero.", fit.output(), level, fit.input());
@@ -276,15 +275,15 @@ void find_running_start(const FittedData& fit, DataIssues& findings) {
         kOverOthers * found_elsewhere(motion, fit) < 1 && start_is_evident(fit);
     if (!moves && !has_strange_beginning(fit)) return;
     const OptionName option{"initial_state"};
-    const Message message = moves
-                                ? Message(
-                                      "The data start during a transient of {} of about {}, so initial rest does not "
-                                      "explain the first samples. Use {} = \"estimate\", or remove the first samples.",
-                                      fit.output(), fit.with_unit(largest, 2), option)
-                                : Message(
-                                      "The data start during a transient of {}, so initial rest does not explain the "
-                                      "first samples. Use {} = \"estimate\", or remove the first samples.",
-                                      fit.output(), option);
+    const Message message =
+        moves ? Message(
+                    "The data start during a transient of {} with an amplitude of about {}, so initial rest does not "
+                    "explain the first samples. Use {} = \"estimate\", or remove the first samples.",
+                    fit.output(), fit.with_unit(largest, 2), option)
+              : Message(
+                    "The data start during a transient of {}, so initial rest does not explain the "
+                    "first samples. Use {} = \"estimate\", or remove the first samples.",
+                    fit.output(), option);
     findings.push_back(about(fit, "running_start", Weight::kWarning, message, largest));
 }
 

@@ -28,7 +28,8 @@ double square_about_mean(const VectorView& x) {
 double variation_about_mean(const VectorView& y) {
     require_pair(y, y);
     if ((y.array() == y[0]).all())
-        throw InvalidArgument("The measured output never changes, so a relative fit is undefined");
+        throw InvalidArgument(
+            "The measured output never changes, so a relative fit is undefined. Use data in which the output varies");
     return square_about_mean(y);
 }
 
@@ -63,8 +64,8 @@ YoungCriterion yic(const VectorView& y, const VectorView& y_sim, const VectorVie
 InformationCriteria information_criteria(double mean_square, Index samples, Index parameters) {
     if (!(mean_square >= 0) || parameters < 0 || samples <= parameters + 1)
         throw InvalidArgument(
-            "Information criteria need a nonnegative mean square and more samples than parameters plus one, but got "
-            "{}, {} and {}",
+            "Information criteria need a nonnegative mean square and more samples than parameters plus one, but the "
+            "mean square is {} with {} and {}",
             mean_square, plural(samples, "{} sample", "{} samples"),
             plural(parameters, "{} parameter", "{} parameters"));
     const double N = static_cast<double>(samples), d = static_cast<double>(parameters);

@@ -56,7 +56,10 @@ class NoisyData {
             clean_ = loop_->to_reference(study.u);
             hold_ = study.controller->sampled() ? Hold::kZoh : Hold::kFoh;
         }
-        if (!clean_.x.allFinite()) throw InvalidArgument("the output of the system diverges: the system is unstable");
+        if (!clean_.x.allFinite())
+            throw InvalidArgument(
+                "the output of the system diverges, because the system is unstable. Use a stable system, or a closed "
+                "loop (option 'controller')");
     }
 
     const Vector& noise_free_output() const { return clean_.x; }
@@ -276,7 +279,8 @@ void check_methods(const std::vector<MonteCarloMethod>& methods) {
 }  // namespace
 
 void MonteCarloStudy::validate() const {
-    if (!system.continuous()) throw InvalidArgument("the system must be a continuous-time model");
+    if (!system.continuous())
+        throw InvalidArgument("the system must be a continuous-time model; convert it with d2c(G)");
     if (runs < 2 || runs > 1'000'000)
         throw InvalidArgument("the number of runs must be between 2 and 1000000, but {} was given", runs);
     if (threads < 0) throw InvalidArgument("the number of threads must be nonnegative, but {} was given", threads);

@@ -22,8 +22,9 @@ void check_sampling(const IdData& data, double Ts) {
     constexpr double kRounding = 1e-9;
     if (Ts == 0 || std::abs(data.Ts - Ts) <= kRounding * Ts) return;
     throw InvalidArgument(
-        "The model and its noise have the sampling time Ts = {} s, but the data have {} s: both must be equal", Ts,
-        data.Ts);
+        "The sampling time of the model and its noise is {} s, but the sampling time of the data is {} s. The sampling "
+        "times must be equal",
+        Ts, data.Ts);
 }
 
 void check_invertible(const Vector& C, const Vector& D) {

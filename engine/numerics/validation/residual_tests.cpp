@@ -149,8 +149,9 @@ IndependenceTest test_independence(const Signals& e, double variance, const Test
     if (Ru == 0) {
         test.tested = false;
         test.correlation = Vector::Zero(2 * lags + 1);
-        test.verdict = Message("{} never changes, so its correlation with the residuals is meaningless.",
-                               data.input_names[static_cast<std::size_t>(input)]);
+        test.verdict = Message(
+            "{} never changes, so its correlation with the residuals is undefined. Use data in which it varies.",
+            data.input_names[static_cast<std::size_t>(input)]);
         return test;
     }
     const Vector& r = tested.with_error;

@@ -32,12 +32,12 @@ Vector simulated_sum(const std::vector<TransferFunction>& models, const MatrixVi
 SimulationSpread simulation_spread(const ModelsOfParameters& models, const Vector& theta, const Matrix& covariance,
                                    const MatrixView& u, double Ts, Hold hold, Index runs, RandomStream& random) {
     const Index d = theta.size();
-    if (runs < 2) throw InvalidArgument("A spread needs at least 2 runs, but {} were requested", runs);
+    if (runs < 2) throw InvalidArgument("The number of runs must be at least 2, but is {}", runs);
     constexpr Index kMaxSimulatedValues = 50'000'000;
     const Index N = u.rows();
     if (N > kMaxSimulatedValues / runs)
-        throw InvalidArgument("A spread of {} runs of {} samples is too large: use a shorter input or fewer runs", runs,
-                              N);
+        throw InvalidArgument("A simulation of {} runs of {} samples is too large: use a shorter input or fewer runs",
+                              runs, N);
     if (covariance.rows() != d || covariance.cols() != d || !covariance.allFinite())
         throw InvalidArgument(
             "The spread needs a finite covariance matrix of the {} parameters, but got a {} x {} matrix", d,

@@ -45,7 +45,7 @@ inline constexpr std::array kStartOptions = {
         {.initial = "\"auto\"", .choices = kOffsets, .member = "offset"})};
 
 inline constexpr OptionEntry kTolerance =
-    option<&FitOptions::tolerance>("Tol", about("relative change of the parameters at which the search stops"),
+    option<&FitOptions::tolerance>("Tol", about("relative change of the parameters below which the search stops"),
                                    {.initial = "1e-6", .member = "tolerance"});
 inline constexpr std::array kIterationOptions = {
     option<&FitOptions::max_iterations>("MaxIter",

@@ -12,7 +12,9 @@ int compare_traced(const Call& call, const std::shared_ptr<Trace>& trace) {
     const auto x = traced_node(call.state(), 1, trace), y = traced_node(call.state(), 2, trace);
     const bool above = Relation()(1., 0.), with_equal = Relation()(0., 0.), below = Relation()(0., 1.);
     if (!x || !y || above == below)
-        throw InvalidArgument("for symbolic values, gt, lt, ge and le accept only two numbers");
+        throw InvalidArgument(
+            "symbolic values can be compared only with gt, lt, ge and le, and only with a number or another symbolic "
+            "value");
     ExpressionTape& tape = trace->tape;
     const bool turned = above == with_equal;  // x >= y is what y - x > 0 leaves
     const auto difference = tape.apply(Operation::kSubtract, turned ? *y : *x, turned ? *x : *y);

@@ -206,7 +206,8 @@ void set_texts(const Options& options, const char* name, std::vector<std::string
     if (!options.has(name)) return;
     texts = options.texts(name);
     if (static_cast<Index>(texts.size()) != channels)
-        throw InvalidArgument("option '{}' has {} for {}", name, plural(texts.size(), "{} string", "{} strings"),
+        throw InvalidArgument("option '{}' has {} for {}; the two numbers must be equal", name,
+                              plural(texts.size(), "{} string", "{} strings"),
                               plural(channels, "{} channel", "{} channels"));
 }
 
@@ -258,7 +259,7 @@ void report_different_clock(const Call& call, const IdData& data) {
 void report_time_unit(const Call& call, const std::string& unit) {
     if (unit == "s" || std::exchange(call.context().time_unit_reported, true)) return;
     call.print(localized(call, Message("iddata: these data, and models estimated from them, have the time unit {}. If "
-                                       "a message or an axis label shows s, the unit is {}",
+                                       "a message or an axis label shows the unit s, the actual unit is {}",
                                        unit, unit)) +
                "\n");
 }

@@ -42,7 +42,7 @@ constexpr std::array kFigureGridOptions = {
     OptionEntry{"columns", ValueKind::kCount, about("number of columns of panels"), {.initial = "1"}}};
 constexpr std::array kMotionOptions = {
     OptionEntry{"rig", ValueKind::kText, about("name of the plant, such as \"crane\"")},
-    OptionEntry{"t", ValueKind::kVector, about("instants of the samples, increasing"), {.unit = "s"}},
+    OptionEntry{"t", ValueKind::kVector, about("increasing sampling instants"), {.unit = "s"}},
     OptionEntry{"measured", ValueKind::kTable,
                 about("measured signals of the plant, a table with one vector per signal")},
     OptionEntry{"simulated", ValueKind::kTable,
@@ -86,8 +86,8 @@ constexpr std::array kSubplotArguments = {
 constexpr std::array kSaveFigureArguments = {
     ArgumentEntry{"fig", ValueKind::kAny, about("figure")},
     ArgumentEntry{"path", ValueKind::kText,
-                  about("file name ending in .pdf, .svg, .png or .gp, in the script's folder, the output folder or a "
-                        "folder inside them")}};
+                  about("file name ending in .pdf, .svg, .png or .gp, in the script's folder or the output folder, or "
+                        "in a folder inside them")}};
 
 /// Options of plot that hold one value for all curves or one per curve.
 struct CurveLists {
@@ -117,8 +117,8 @@ const T* value_for(const std::vector<T>& values, std::size_t i, std::size_t coun
     if (values.empty()) return nullptr;
     if (values.size() == 1) return &values.front();
     if (values.size() != count)
-        throw InvalidArgument("option '{}' has {} for {}", name, plural(values.size(), "{} value", "{} values"),
-                              plural(count, "{} curve", "{} curves"));
+        throw InvalidArgument("option '{}' has {} for {}; the two numbers must be equal", name,
+                              plural(values.size(), "{} value", "{} values"), plural(count, "{} curve", "{} curves"));
     return &values[i];
 }
 
@@ -126,7 +126,8 @@ void read_curve_lists(const Options& options, std::vector<Curve>& curves) {
     const CurveLists lists{options.texts("label"), options.texts("style"), numbers(options, "dash"),
                            numbers(options, "marker"), colors_of(options)};
     if (lists.labels.size() > curves.size())
-        throw InvalidArgument("option 'label' has {} for {}", plural(lists.labels.size(), "{} string", "{} strings"),
+        throw InvalidArgument("option 'label' has {} for {}; specify at most one string per curve",
+                              plural(lists.labels.size(), "{} string", "{} strings"),
                               plural(curves.size(), "{} curve", "{} curves"));
     for (std::size_t i = 0; i < curves.size(); ++i) {
         Curve& curve = curves[i];
@@ -290,15 +291,16 @@ Matrix signals_of_parts(const Options& options, const char* name, const PlantDra
     for (std::size_t k = 0; k < plant.parts.size(); ++k) {
         const PlantPart& part = plant.parts[k];
         if (lua_getfield(call.state(), table, part.signal.c_str()) == LUA_TNIL)
-            throw InvalidArgument("option '{}' does not contain the {} ({}), which animates the plant", name,
-                                  part.signal, part.unit);
+            throw InvalidArgument(
+                "option '{}' does not contain the signal {} ({}), which the animation of the plant needs", name,
+                part.signal, part.unit);
         const Call with_signal(call.state());  // it counts the current entries of the stack
         if (!with_signal.holds_vector(with_signal.count()))
             throw InvalidArgument("the {} {} must be a vector, but it is {}", name, part.signal,
                                   given_value(call.state(), with_signal.count()));
         const VectorMap signal = with_signal.vector(with_signal.count(), part.signal.c_str());
         if (signal.size() != count)
-            throw InvalidArgument("the {} {} has {} for {}", name, part.signal,
+            throw InvalidArgument("the {} {} has {} for {}; specify one value per instant", name, part.signal,
                                   plural(signal.size(), "{} value", "{} values"),
                                   plural(count, "{} instant", "{} instants"));
         signals.col(static_cast<Index>(k)) = signal;

@@ -89,7 +89,7 @@ int push_field(lua_State* L, int index, const char* name) {
 Vector coefficients_of_field(const Call& call, int index, const char* name) {
     lua_State* L = call.state();
     if (push_field(L, index, name) == LUA_TTABLE)
-        make_vector_of_table(L, lua_gettop(L), Message("the field {} of a model struct", name));
+        make_vector_of_table(L, lua_gettop(L), Message("the field {} of a model table", name));
     NumericBlock* block = to_vector(L, -1) != nullptr ? to_vector(L, -1) : to_matrix(L, -1);
     Vector values;
     if (lua_type(L, -1) == LUA_TNUMBER)
@@ -97,7 +97,7 @@ Vector coefficients_of_field(const Call& call, int index, const char* name) {
     else if (block != nullptr && std::min(block->rows, block->columns) == 1)
         values = Eigen::Map<const Vector>(block->data(), block->rows * block->columns);
     else
-        throw InvalidArgument("the field {} of a model struct must be a vector, but it is {}", name,
+        throw InvalidArgument("the field {} of a model table must be a vector, but it is {}", name,
                               given_value(L, lua_gettop(L)));
     lua_pop(L, 1);
     return values;
@@ -107,7 +107,7 @@ double number_of_field(const Call& call, int index, const char* name) {
     lua_State* L = call.state();
     const int type = push_field(L, index, name);
     if (type != LUA_TNIL && type != LUA_TNUMBER)
-        throw InvalidArgument("the field {} of a model struct must be a number, but it is {}", name,
+        throw InvalidArgument("the field {} of a model table must be a number, but it is {}", name,
                               given_value(L, lua_gettop(L)));
     const double value = type == LUA_TNIL ? 0 : lua_tonumber(L, -1);
     lua_pop(L, 1);

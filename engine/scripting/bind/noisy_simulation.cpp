@@ -84,9 +84,9 @@ InputSignals input_argument(const Call& call) {
 Matrix simulated_outputs(const std::vector<TransferFunction>& channels, const InputSignals& input, Hold hold) {
     const auto inputs = static_cast<std::size_t>(input.u.cols());
     if (inputs == 0 || channels.size() % inputs != 0)
-        throw InvalidArgument("the model has {}, which is inconsistent with {}",
-                              plural(channels.size(), "{} channel", "{} channels"),
-                              plural(inputs, "{} input", "{} inputs"));
+        throw InvalidArgument(
+            "the model has {}, which cannot be divided among {}; specify one signal for each input of the model",
+            plural(channels.size(), "{} channel", "{} channels"), plural(inputs, "{} input", "{} inputs"));
     Matrix y = Matrix::Zero(input.u.rows(), static_cast<Index>(channels.size() / inputs));
     for (std::size_t i = 0; i < channels.size(); ++i) {
         const auto u = input.u.col(static_cast<Index>(i % inputs));
@@ -137,11 +137,13 @@ int simulate_with_noise(Call& call) {
     if (!options.flag("noise", snr.has_value()))
         return y.cols() == 1 ? call.give_vector(y.col(0)) : call.give_matrix(y);
     if (y.cols() != 1)
-        throw InvalidArgument("noise can be simulated only for one output, but the model has {}: use its channels",
-                              y.cols());
+        throw InvalidArgument(
+            "noise can be simulated only for one output, but the model has {}: simulate one of its channels", y.cols());
     if (model.noise_Ts > 0 && std::abs(model.noise_Ts - input.Ts) > 1e-9 * model.noise_Ts)
-        throw InvalidArgument("the noise model has the sampling time {} s, but the input has {} s",
-                              significant(model.noise_Ts, 10), significant(input.Ts, 10));
+        throw InvalidArgument(
+            "the sampling time of the noise model is {} s, but the sampling time of the input is {} s. The sampling "
+            "times must be equal",
+            significant(model.noise_Ts, 10), significant(input.Ts, 10));
     const ColoredNoise noise = noise_of(model);
     const double sigma =
         snr ? noise_std_of_snr(y.col(0), *snr) / noise.gain() : own_noise_std(to_object<Model>(call.state(), 1));
@@ -170,8 +172,8 @@ std::optional<TransferStructure> structure_of_estimate(const Model& model) {
 SimulationSpread spread_of(const Model& model, const InputSignals& input, Hold hold, Index runs, RandomStream& random) {
     if (input.Ts == 0) throw InvalidArgument("the input must be sampled regularly");
     if (static_cast<std::size_t>(input.u.cols()) != model.inputs())
-        throw InvalidArgument("the model has {}, but {} were given", plural(model.inputs(), "{} input", "{} inputs"),
-                              input.u.cols());
+        throw InvalidArgument("the model has {}, but the number of input signals is {}",
+                              plural(model.inputs(), "{} input", "{} inputs"), input.u.cols());
     if (const auto uncertain = uncertain_model(model))
         return simulation_spread(*uncertain, input.u.col(0), input.Ts, hold, runs, random);
     if (model.estimate && model.outputs == 1 && model.estimate->covariance().size() > 0) {

@@ -73,7 +73,7 @@ constexpr std::array kEtfeArguments = {kOneExperiment, kComparedModels},
 constexpr ArgumentEntry kImpulseArguments[] = {
     kSingleData,
     {"n", ValueKind::kCount,
-     about("length of the response in samples, 1 to 400; by default the smaller of 70 and N/5")},
+     about("length of the response in samples, 1 to 400; by default the smaller of 70 and N/5 for N samples")},
     kComparedModels};
 
 /// (data, G1, G2, ..., {options}): the models to draw over the estimate, and the index of the options.
@@ -99,7 +99,8 @@ void name_models(const Options& options, std::vector<NamedModel>& models) {
     const std::vector<std::string> labels = options.texts("labels");
     if (labels.empty()) return;
     if (labels.size() != models.size())
-        throw InvalidArgument("option 'labels' has {} for {}", plural(labels.size(), "{} string", "{} strings"),
+        throw InvalidArgument("option 'labels' has {} for {}; specify one string per model",
+                              plural(labels.size(), "{} string", "{} strings"),
                               plural(models.size(), "{} model", "{} models"));
     for (std::size_t i = 0; i < models.size(); ++i) models[i].name = Message::verbatim(labels[i]);
 }

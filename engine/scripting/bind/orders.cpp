@@ -40,10 +40,10 @@ constexpr OptionEntry kGridOptions[] = {
      ValueKind::kFlag,
      about("true also includes structures with as many zeros as poles"),
      {.initial = "false"}}};
-constexpr std::array kGridDelayOptions =
-    delay_search_options(about("largest delay of the search; without TdMax, the delays in `delays` are used"));
+constexpr std::array kGridDelayOptions = delay_search_options(
+    about("largest delay in the search; if you do not specify `TdMax`, the search uses the delays in `delays`"));
 constexpr std::array kFreeDelayOptions = delay_search_options(
-    about("largest delay of the search, greater than `TdMin`; by default, a bound computed from the data"));
+    about("largest delay in the search, greater than `TdMin`; by default, a bound computed from the data"));
 constexpr std::array kStructureOptions = {kValidate, kSearchLambda, kStableOption,
                                           kSearchThreads<&OrderSelectionOptions::threads>};
 constexpr OptionTable kOrderListTables[] = {kStructureOptions, kStartOptions, kIterationOptions, kIntegrationOptions},

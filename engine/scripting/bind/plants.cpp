@@ -14,7 +14,7 @@ constexpr double kMaxPlantSeed = 0xFFFFFFFF;
 constexpr std::array kPlantSeedOptions = {option<&PlantChoice::seed>(
     "seed", about("seed of the noise and of random inputs"), {.minimum = 0, .maximum = kMaxPlantSeed})};
 constexpr std::array kPlantVariantOptions = {option<&PlantChoice::variant_number>(
-    "specimen", about("number of the unit; 0 is the unit that `SOURCE.md` documents"),
+    "specimen", about("number of the unit of the plant; 0 is the unit that `SOURCE.md` documents"),
     {.minimum = 0, .maximum = kMaxPlantSeed})};
 constexpr OptionTable kPlantTables[] = {kPlantSeedOptions, kPlantVariantOptions},
                       kTrueModelTables[] = {kPlantVariantOptions};

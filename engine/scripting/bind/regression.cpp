@@ -50,7 +50,7 @@ constexpr OptionEntry kRegressionPlotOptions[] = {
 constexpr std::array kDescentOptions = {
     option<&GradientDescentOptions::step_size>("step", about("step size; by default 1/lambda_max of Phi'Phi/N")),
     option<&GradientDescentOptions::max_iterations>("MaxIter", about("maximum number of iterations")),
-    option<&GradientDescentOptions::tolerance>("Tol", about("relative change of theta at which the search stops"),
+    option<&GradientDescentOptions::tolerance>("Tol", about("relative change of theta below which the search stops"),
                                                {.minimum = 0}),
     option<&GradientDescentOptions::start>("start", about("initial theta; by default, zero"))};
 constexpr OptionTable kLsqTables[] = {kLsqOptions}, kPolyfitTables[] = {kPolyfitOptions},

@@ -33,21 +33,23 @@ constexpr std::array kSaveMatOptions = {
 constexpr OptionTable kSaveCsvTables[] = {kSaveCsvOptions}, kSaveMatTables[] = {kSaveMatOptions};
 
 constexpr std::array kSaveCsvArguments = {
-    ArgumentEntry{"path", ValueKind::kText,
-                  about("file name ending in .csv, in the script's folder, the output folder or a folder inside them")},
+    ArgumentEntry{
+        "path", ValueKind::kText,
+        about("file name ending in .csv, in the script's folder or the output folder, or in a folder inside them")},
     ArgumentEntry{
         "data", ValueKind::kData,
         about("data object with one experiment, or a table of named vectors, lists of numbers and lists of strings")}};
 constexpr std::array kSaveMatArguments = {
-    ArgumentEntry{"path", ValueKind::kText,
-                  about("file name ending in .mat, in the script's folder, the output folder or a folder inside them")},
+    ArgumentEntry{
+        "path", ValueKind::kText,
+        about("file name ending in .mat, in the script's folder or the output folder, or in a folder inside them")},
     ArgumentEntry{"variables", ValueKind::kTable,
                   about("table of named variables: models, data objects, vectors, matrices, numbers, strings, lists of "
                         "strings, and tables of these")}};
 constexpr std::array kSaveJsonArguments = {
     ArgumentEntry{
         "path", ValueKind::kText,
-        about("file name ending in .json, in the script's folder, the output folder or a folder inside them")},
+        about("file name ending in .json, in the script's folder or the output folder, or in a folder inside them")},
     kSaveMatArguments[1]};
 
 std::filesystem::path file_to_write(const Call& call, const char* extension) {
@@ -226,7 +228,7 @@ Variable variable_on_top(const Call& call, const std::string& name, int depth) {
 
 VariableTable variables_of(const Call& call, int index, int depth) {
     if (depth > kMaxSavedTableDepth)
-        throw InvalidArgument("nested tables are written to at most {} levels", kMaxSavedTableDepth);
+        throw InvalidArgument("tables can be nested at most {} levels deep in a file", kMaxSavedTableDepth);
     luaL_checkstack(call.state(), 8, "the tables are nested too deeply");
     VariableTable variables;
     for (const std::string& name : names_of_entries(call.state(), index)) {

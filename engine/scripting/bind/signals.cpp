@@ -25,7 +25,7 @@ constexpr std::array kMultisineOptions = {
         "odd", about("true excites only the odd lines; the even lines then show even distortion")),
     option<&RandomPhaseOptions::detection>("detection",
                                            about("number of lines per group. One line of each group, chosen at random, "
-                                                 "has no input and shows odd distortion; 0 for no groups")),
+                                                 "is not excited and shows odd distortion; 0 for no groups")),
     option<&RandomPhaseOptions::amplitude>("amplitude", about("root mean square of the signal")),
     option<&RandomPhaseOptions::low_crest>("low_crest", about("true selects phases with a low crest factor")),
     OptionEntry{"periods", ValueKind::kCount, about("number of periods"), {.initial = "1", .minimum = 1}},

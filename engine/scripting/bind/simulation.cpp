@@ -149,8 +149,8 @@ std::vector<NamedModel> models_to_draw(const Call& call, int& next) {
 std::vector<std::string> given_labels(const Options& options, std::size_t count) {
     std::vector<std::string> labels = options.texts("labels");
     if (!labels.empty() && labels.size() != count)
-        throw InvalidArgument("option 'labels' has {} for {}", plural(labels.size(), "{} string", "{} strings"),
-                              plural(count, "{} model", "{} models"));
+        throw InvalidArgument("option 'labels' has {} for {}; specify one string per model",
+                              plural(labels.size(), "{} string", "{} strings"), plural(count, "{} model", "{} models"));
     return labels;
 }
 

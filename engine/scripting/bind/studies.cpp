@@ -206,7 +206,7 @@ void read_excitation(const Options& options, MonteCarloStudy& study) {
         throw InvalidArgument(
             loop ? Message("in a closed loop, controller and reference determine the input: omit 'input'")
                  : Message("option 'reference' applies only to a closed loop and requires the option 'controller'"));
-    if (!options.has(name)) throw InvalidArgument("option '{}' is missing: the samples of the {}", name, name);
+    if (!options.has(name)) throw InvalidArgument("option '{}' is missing; specify the samples of the {}", name, name);
     study.u = options.vector(name);
     if (!loop) return;
     study.controller = controller_at(options.call(), options.push("controller"));
@@ -219,7 +219,7 @@ MonteCarloStudy study_of(const Options& options) {
     read_excitation(options, study);
     options.read(study);
     const auto Ts = options.optional_number("Ts");
-    if (!Ts) throw InvalidArgument("option 'Ts' is missing: the sampling time in seconds");
+    if (!Ts) throw InvalidArgument("option 'Ts' is missing; specify the sampling time in seconds");
     study.Ts = *Ts;
     study.cancel = options.call().cancel();
     return study;

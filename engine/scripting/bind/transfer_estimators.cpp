@@ -25,7 +25,7 @@ constexpr std::array kOutputErrorOrders = {kNb, kNf, kNk};
 
 constexpr std::array kSvfFilterOptions = {kHoldOfOutput<SvfOptions>};
 constexpr std::array kMomentOptions = {
-    option<&SvfOptions::beta>("beta", about("gain of the filters; by default lambda"), {.unit = "rad/s"}),
+    option<&SvfOptions::beta>("beta", about("gain of the filters; by default, `lambda`"), {.unit = "rad/s"}),
     kHoldOfOutput<SvfOptions>};
 constexpr OptionTable kFiltered[] = {kSvfFilterOptions}, kMoments[] = {kMomentOptions};
 constexpr OptionTable kRefined[] = {kFirstFilterOptions, kStartOptions,   kIterationOptions,

@@ -20,8 +20,9 @@ void need_memory(lua_State* L, double bytes, const What& what) {
     if (bytes <= limit && memory.fits(static_cast<std::size_t>(bytes))) return;
     if (bytes <= limit) lua_gc(L, LUA_GCCOLLECT);
     if (bytes > limit || !memory.fits(static_cast<std::size_t>(bytes)))
-        throw InvalidArgument("{} needs {}, but the limit of the script is {} and it already uses {}", what(),
-                              size_phrase(bytes), size_phrase(limit), size_phrase(static_cast<double>(memory.used())));
+        throw InvalidArgument("{} needs {} of memory, but the limit of the script is {} and the script already uses {}",
+                              what(), size_phrase(bytes), size_phrase(limit),
+                              size_phrase(static_cast<double>(memory.used())));
 }
 
 template <class Block, class What>

@@ -51,7 +51,7 @@ Access<IdData>& object_argument<IdData>(const Call& call, int index, ArgumentNam
     const IdData& data = signals_of_argument(call, index, what);
     if (data.output_count() > 0) return data;
     throw InvalidArgument(
-        "{} must have an output, but these data contain only inputs, which is sufficient for sim, simsd and idplot",
+        "{} must have an output, but these data contain only inputs; sim, simsd and idplot accept data without outputs",
         argument_label(index, what));
 }
 

@@ -40,7 +40,7 @@ Message call_words(lua_State* L, lua_Debug& frame) {
     }
     if (frame.nparams > count || frame.isvararg != 0) arguments.emplace_back("...");
     const std::string given = fmt::format("({})", fmt::join(arguments, ", "));
-    if (frame.name == nullptr) return Message("called the function of line {} {}", frame.linedefined, given);
+    if (frame.name == nullptr) return Message("called the function defined in line {} {}", frame.linedefined, given);
     return Message("called {}", frame.name + given);
 }
 

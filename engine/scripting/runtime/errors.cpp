@@ -109,8 +109,10 @@ struct PlainMessage {
 
 const auto& fixed_messages() {
     static const std::array messages = {
-        PlainMessage{"stack overflow", Message("functions call each other without end (stack overflow)")},
-        PlainMessage{"C stack overflow", Message("functions call each other without end (stack overflow)")},
+        PlainMessage{"stack overflow", Message("infinite recursion (stack overflow): a function calls itself, directly "
+                                               "or through other functions, and never stops")},
+        PlainMessage{"C stack overflow", Message("infinite recursion (stack overflow): a function calls itself, "
+                                                 "directly or through other functions, and never stops")},
         PlainMessage{"error in error handling", Message("an error occurred while another error was handled")},
         PlainMessage{"number has no integer representation", Message("a whole number is required")},
         PlainMessage{"attempt to divide by zero", Message("a whole number cannot be divided by zero with //")},
@@ -123,7 +125,7 @@ const auto& fixed_messages() {
         PlainMessage{"resulting string too large", Message("the string would be too long")},
         PlainMessage{"string length overflow", Message("the string would be too long")},
         PlainMessage{"cannot resume dead coroutine", Message("this coroutine has ended and cannot be resumed")},
-        PlainMessage{"cannot resume non-suspended coroutine", Message("this coroutine is running already")},
+        PlainMessage{"cannot resume non-suspended coroutine", Message("this coroutine is already running")},
         PlainMessage{"attempt to yield from outside a coroutine",
                      Message("coroutine.yield works only inside a coroutine")},
         PlainMessage{"not enough memory", Message("the script needs more memory than allowed")},
@@ -151,7 +153,7 @@ Message plain_sentence(const std::string& text) {
     if (auto type = between(text, "attempt to perform bitwise operation on a ", " value"))
         return with_advice(
             Message("{} is {}, so the operators & | ~ << >> do not support it", subject(text), what_it_is(*type)),
-            *type == "boolean" ? Message("write 'not' as not x") : Message());
+            *type == "boolean" ? Message("write a negation in the form: not x") : Message());
     if (auto type = between(text, "attempt to concatenate a ", " value"))
         return Message("{} is {}, so the operator .. cannot join it to a string; use tostring(x)", subject(text),
                        what_it_is(*type));
@@ -177,14 +179,14 @@ Message plain_sentence(const std::string& text) {
 
 Message syntax_sentence(const std::string& text, const std::string& near) {
     if (auto opened = between(text, "'end' expected (to close '", "' at line "))
-        return Message("the '{}' of line {} has no 'end'", *opened, *between(text, "at line ", ")"));
+        return Message("the '{}' in line {} has no 'end'", *opened, *between(text, "at line ", ")"));
     if (auto closing = between(text, "", " expected (to close '"))
-        return Message("the '{}' of line {} is not closed: {} is missing", *between(text, "(to close '", "' at line "),
+        return Message("the '{}' in line {} is not closed: {} is missing", *between(text, "(to close '", "' at line "),
                        *between(text, "at line ", ")"), *closing);
     if (auto name = between(text, "attempt to assign to const variable '", "'"))
-        return Message("'{}' is a constant and cannot change", *name);
+        return Message("'{}' is a constant and cannot be changed", *name);
     if (auto line = between(text, "break outside loop at line ", ""))
-        return Message("the break of line {} is outside a loop", line->substr(0, line->find(' ')));
+        return Message("the 'break' in line {} is outside a loop", line->substr(0, line->find(' ')));
     if (auto max_locals = between(text, "too many local variables (limit is ", ")"))
         return Message(
             "a function can have at most {} local variables; declare further variables without 'local', or put them in "
@@ -211,7 +213,7 @@ PlacedMessage missing_end(const LocatedMessage& placed, const std::string& sourc
     if (block->else_if > 0)
         return {Message("an 'end' is missing, because 'else if' opens a second block; write elseif"), placed.file,
                 block->else_if};
-    return {Message("the '{}' of line {} has no 'end'", block->word, block->line), placed.file, block->line};
+    return {Message("the '{}' in line {} has no 'end'", block->word, block->line), placed.file, block->line};
 }
 
 }  // namespace
@@ -242,7 +244,7 @@ PlacedMessage syntax_error(const std::string& message, const std::string& source
     LocatedMessage placed = take_apart(message);
     const auto at = [&](int line, Message text) { return PlacedMessage{std::move(text), placed.file, line}; };
     if (placed.text.find("attempt to load a binary chunk") != std::string::npos)
-        return {Message("this is a compiled Lua chunk, which dynlab does not accept; submit the source text")};
+        return {Message("this is a compiled Lua chunk, which dynlab does not accept; use the source text")};
     std::string near = between(placed.text, " near '", "").value_or("");
     if (!near.empty()) near.pop_back();
     if (placed.text.find(" near <eof>") != std::string::npos) near = "<eof>";
@@ -269,9 +271,9 @@ PlacedMessage syntax_error(const std::string& message, const std::string& source
     const bool ended_early = near == "<eof>" && placed.text.find("unfinished string") == std::string::npos;
     Message hint = ended_early ? Message() : matlab_syntax_hint(wrong, near);
     if (hint.empty() && starts_with(placed.text, "'do' expected"))
-        hint = Message("write a loop as while condition do ... end");
+        hint = Message("write a loop in the form: while condition do ... end");
     if (hint.empty() && starts_with(placed.text, "'then' expected"))
-        hint = Message("write a condition as if a > b then ... end");
+        hint = Message("write a condition in the form: if a > b then ... end");
     return at(placed.line, with_advice(syntax_sentence(placed.text, near), hint));
 }
 

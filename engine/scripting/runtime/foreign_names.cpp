@@ -14,12 +14,14 @@ struct NameHint {
 
 const auto& name_hints() {
     static const NameHint hints[] = {
-        {"CARX", Message("write lssvf(data, {na, nb, delay}), or ivsvf(...) if the equation error is not white")},
-        {"CBJ", Message("write rivc(data, {nb, nc, nd, nf, delay})")},
-        {"ans", Message("store the result in a variable: local x = ...")},
+        {"CARX", Message("write lssvf(data, {na, nb, nk}, lambda), or ivsvf(data, {na, nb, nk}, lambda) if the "
+                         "equation error is not white")},
+        {"CBJ", Message("write rivc(data, {nb, nc, nd, nf, nk})")},
+        {"ans", Message("store the result in a variable: local m = mean(v)")},
         {"axis", Message("set x_range = {a, b} and y_range = {a, b} in the options of plot")},
         {"bar", Message("write plot(x, y, {style = \"bars\"})")},
-        {"cd pwd", Message("scripts can read and write files only in the script's folder")},
+        {"cd pwd", Message("scripts cannot change the folder; they can write files only in the script's folder and the "
+                           "output folder")},
         {"cell", Message("write a Lua table: local c = {}", "{}")},
         {"cell2mat", Message("a Lua table of numbers is accepted as a vector: vector(t)")},
         {"clc", Message("press Ctrl-L at the prompt to clear the screen")},
@@ -40,11 +42,13 @@ const auto& name_hints() {
          Message("read data with load(name), write data with save_csv(path, data), and print values with print(x)")},
         {"isempty", Message("write #v == 0")},
         {"isnan",
-         Message("functions that need finite values report a vector with NaN by name; for one number x write x ~= x")},
+         Message(
+             "functions that require finite values report which vector contains NaN; for a number x, write x ~= x")},
         {"legend", Message("name the curves: plot(x1, y1, \"first\", x2, y2, \"second\")")},
         {"length numel len", Message("write #v")},
         {"line", Message("write plot(x, y)")},
-        {"lsode", Message("lsim(G, u, Ts) simulates linear differential equations; for others, use lsim with idgrey")},
+        {"lsode", Message("lsim(G, u, Ts) simulates linear differential equations; for nonlinear equations, use lsim "
+                          "with a model from idgrey")},
         {"mldivide", Message("write solve(A, b)")},
         {"nnz", Message("write #find(mask)")},
         {"num2str", Message("write string.format(\"%g\", x)")},
@@ -83,14 +87,14 @@ const auto& name_hints() {
         {"conj", Message("complex numbers have the fields re, im, abs and arg")},
         {"cpsd pwelch tfestimate", Message("write spa(data) or etfe(data), which return frequency responses")},
         {"ctrb obsv", Message("use ss(A, B, C, D) with place or lqr")},
-        {"cumprod", Message("write exp(cumsum(log(v)))")},
+        {"cumprod", Message("write exp(cumsum(log(v))) for a vector of positive values")},
         {"d2d", Message("write c2d(d2c(G), Ts)")},
         {"date datetime", Message("scripts have no access to the system or the date")},
         {"db mag2db", Message("write 20*log10(x)")},
         {"deconv", Message("write pole(tf({1}, a)) for the roots of a polynomial")},
         {"double", Message("every number is in double precision; tonumber(text) converts a string")},
         {"exit quit", Message("a script ends after its last line")},
-        {"expm", Message("write lsim or c2d(G, Ts), which compute the matrix exponential")},
+        {"expm", Message("use lsim(G, u, Ts) or c2d(G, Ts), which compute the matrix exponential")},
         {"fix", Message("write floor(x), or ceil(x) for negative x")},
         {"fliplr flipud", Message("write v:select(range(#v, -1, 1))")},
         {"fminsearch lsqnonlin",
@@ -102,7 +106,7 @@ const auto& name_hints() {
         {"getTrend", Message("write detrend(data), or mean(data.y) for the mean")},
         {"getpar", Message("write G.param")},
         {"hist", Message("write histogram(v)")},
-        {"iddemo", Message("type dynlab demo in a terminal")},
+        {"iddemo", Message("in a terminal, run: dynlab demo")},
         {"idnlarx nlarx", Message("write narx(data, {na, nb, nk}, {degree = 2}) for a polynomial difference equation")},
         {"imag", Message("a complex number has the field im")},
         {"initial", Message("write lsim(G, u, t, {x0 = ...}) with an input of zeros")},
@@ -112,11 +116,12 @@ const auto& name_hints() {
         {"iscell", Message("write type(x) == \"table\"")},
         {"isfield", Message("a missing field is nil: t.name == nil")},
         {"isnumeric", Message("write type(x) == \"number\"")},
-        {"keyboard", Message("write print(x); dynlab run -i FILE opens the prompt with the script's variables")},
+        {"keyboard",
+         Message("write print(x); to inspect the script's variables at the prompt, run: dynlab run -i FILE")},
         {"lower", Message("write string.lower(text)")},
         {"meshgrid", Message("write two loops: for i = 1, m do for j = 1, n do ... end end")},
-        {"minreal", Message("dynlab does not cancel poles and zeros; srivcstruc(data, ...) finds a structure without "
-                            "canceling poles and zeros")},
+        {"minreal", Message("dynlab does not cancel poles and zeros; srivcstruc(data, ...) finds a structure in which "
+                            "no zero cancels a pole")},
         {"nparams", Message("write #G.param")},
         {"null None", Message("write nil")},
         {"optimset", Message("specify the options in the call: srivc(data, {1, 2, 0}, {MaxIter = 50})")},
@@ -132,7 +137,7 @@ const auto& name_hints() {
         {"repmat", Message("write vector{v, v}, or matrix{v, v} for columns side by side")},
         {"rlocus", Message("write pole(feedback(k*G, 1)) for each gain k")},
         {"setpar", Message("write tf(num, den) with the required values")},
-        {"sisotool", Message("write margin(L), place or lqr")},
+        {"sisotool", Message("use margin(L), place or lqr")},
         {"ssdata", Message("write G.A, G.B, G.C and G.D of a state-space model")},
         {"strsplit", Message("write string.gmatch(text, \"[^,]+\") in a loop")},
         {"svd", Message("write eig(A:t()*A): the square roots of the eigenvalues are the singular values")},
@@ -163,7 +168,7 @@ const auto& name_hints() {
         {"lpvsrivc", Message("rsrivc(data, {nb, nf, nk}, lambda, {forgetting = 0.99}) tracks parameters that change "
                              "with time; srivc(data, {nb, nf, nk}) fits data at one operating point")},
         {"isstable", Message("write stable(G)")},
-        {"misdata", Message("write fillmissing(data)")},
+        {"misdata", Message("write fillmissing(y) and fillmissing(u, {method = \"previous\"}) before you call iddata")},
         {"idnlgrey",
          Message("write idgrey(f, {k1 = 0.5}, {states = 2}) with function f(t, x, u, p) return {dx1, dx2} end")},
         {"nlgreyest", Message("write greyest(data, m) with a model from idgrey")},
@@ -187,7 +192,7 @@ const auto& name_hints() {
         {"ssest ssregest", Message("write n4sid(data, order)")},
         {"tfdata", Message("write G.num and G.den")},
         {"tfest", Message("use tfsrivc(data, poles, zeros), also for idfrd objects")},
-        {"xcorr", Message("write cra(data), or resid(data, G) for the correlations of a model's errors")},
+        {"xcorr", Message("write cra(data), or resid(data, G) for the correlations of a model's residuals")},
         {"zpk", Message("write tf(num, den); pole(G) and zero(G) return the roots")},
         {"zpplot", Message("write pzmap(G)")},
         {"False", Message("write false")},
@@ -224,7 +229,8 @@ struct MemberHint {
 
 /// Fields and methods that the same things have elsewhere.
 const auto& member_hints() {
-    static const Message kCounting = Message("#v counts the elements of a vector; a matrix has rows and columns");
+    static const Message kCounting =
+        Message("#v counts the elements of a vector; for a matrix, use A.rows and A.columns");
     static const MemberHint hints[] = {
         {"iddata", "Fs", Message("data.Ts is the sampling time in seconds")},
         {"iddata", "InputData input", Message("the input is data.u")},

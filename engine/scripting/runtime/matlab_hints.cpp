@@ -17,16 +17,16 @@ Message comment_form() {
     return Message("a comment starts with -- in Lua");
 }
 Message for_loop_form() {
-    return Message("write a loop as for k = 1, N do ... end");
+    return Message("write a loop in the form: for k = 1, N do ... end");
 }
 Message condition_form() {
-    return Message("write a condition as if a > b then ... end");
+    return Message("write a condition in the form: if a > b then ... end");
 }
 Message named_function_form() {
-    return Message("write a function as function name(x) ... return y end");
+    return Message("write a function in the form: function name(x) ... return y end");
 }
 Message inline_function_form() {
-    return Message("write a function as function(x) return x^2 end");
+    return Message("write a function in the form: function(x) return x^2 end");
 }
 
 /// A character that word processors and printed pages use instead of a character that Lua knows.
@@ -144,7 +144,7 @@ Message element_hint(const std::string& code) {
         return Message("the last element is x[#x]; vector{x, y} appends y to x");
     static const RE2 kTwoPlaces(R"(\w\[\s*[\w.:]+\s*,)", RE2::Latin1);
     if (RE2::PartialMatch(code, kTwoPlaces)) return Message("the element in row 1 and column 2 is A[{1, 2}]");
-    if (contains(code, "?")) return Message("write if ... then ... else ... end instead of ?");
+    if (contains(code, "?")) return Message("Lua has no '?' operator; write if ... then ... else ... end");
     static const RE2 kElementSet(R"(\s*(?:local\s+)?([A-Za-z_]\w*)\(([\w\s,:#]+)\)\s*=[^=].*)", RE2::Latin1);
     std::string name, place;
     if (RE2::FullMatch(code, kElementSet, &name, &place))
@@ -159,15 +159,16 @@ Message element_hint(const std::string& code) {
 }
 
 Message operator_hint(const std::string& code) {
-    if (contains(code, ".*")) return Message("write x*y for vectors and A:times(B) for matrices, instead of .*");
-    if (contains(code, "./")) return Message("for vectors write x/y instead of ./");
-    if (contains(code, ".^")) return Message("for vectors write x^2 instead of .^");
+    if (contains(code, ".*"))
+        return Message("write x*y for vectors and A:times(B) for matrices, instead of x.*y and A.*B");
+    if (contains(code, "./")) return Message("for vectors, write x/y instead of x./y");
+    if (contains(code, ".^")) return Message("for vectors, write x^2 instead of x.^2");
     if (contains(code, "**")) return Message("write a power as x^2");
     if (contains(code, "!=") || contains(code, "<>")) return Message("write 'not equal' as ~= in Lua");
-    if (contains(code, "!")) return Message("write 'not' as not x");
-    if (contains(code, ":=")) return Message("assign a value with =: x = 3");
-    if (contains(code, "&&")) return Message("write and instead of &&");
-    if (contains(code, "||")) return Message("write or instead of ||");
+    if (contains(code, "!")) return Message("write a negation in the form: not x");
+    if (contains(code, ":=")) return Message("to assign a value, write x = 3");
+    if (contains(code, "&&")) return Message("write 'and' instead of '&&'");
+    if (contains(code, "||")) return Message("write 'or' instead of '||'");
     if (contains(code, "+=") || contains(code, "-=") || contains(code, "*="))
         return Message("write x = x + 1 instead of x += 1");
     if (contains(code, "++")) return Message("write x = x + 1 instead of x++");
@@ -177,14 +178,14 @@ Message operator_hint(const std::string& code) {
 Message block_hint(const std::string& code) {
     const std::string word = first_word(code);
     if ((word == "for" || word == "while") && !contains(code, " do"))
-        return word == "for" ? for_loop_form() : Message("write a loop as while condition do ... end");
+        return word == "for" ? for_loop_form() : Message("write a loop in the form: while condition do ... end");
     if ((word == "if" || word == "elseif") && !contains(code, "then")) return condition_form();
     if (word == "function" && contains(code, "=")) return named_function_form();
     if (word == "switch" || word == "case" || word == "otherwise")
         return Message("Lua has no switch: write if ... elseif ... else ... end");
     if (word == "elif" || word == "elsif") return Message("write elseif ... then");
     if (word == "def") return named_function_form();
-    if (word == "const" || word == "let" || word == "var") return Message("write a variable as local x = 3");
+    if (word == "const" || word == "let" || word == "var") return Message("to declare a variable, write local x = 3");
     if (word == "try" || word == "catch") return Message("write local ok, message = pcall(f) instead of try");
     if (word == "end" && contains(code, "end;"))
         return Message("one 'end' is superfluous, or the start of a block is missing");
@@ -236,7 +237,7 @@ Message foreign_character_sentence(const std::string& line) {
         const auto known = std::ranges::find(kForeign, *character, &ForeignCharacter::character);
         const std::string_view instead = known == kForeign.end() ? std::string_view() : known->instead;
         const Message advice = known == kForeign.end()
-                                   ? Message("a name may contain only the letters a to z, digits and _")
+                                   ? Message("a name may contain only the letters a to z and A to Z, digits and _")
                                : instead.empty() ? Message("remove it")
                                : instead == " "  ? Message("replace it with a space")
                                                  : Message("replace it with {}", instead);

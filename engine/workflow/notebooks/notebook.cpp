@@ -199,8 +199,8 @@ const json& checked_cells(const json& notebook, const std::filesystem::path& nam
     if (format == notebook.end() || !format->is_number_integer())
         refuse_notebook(name, Message("the file is JSON, but not a Jupyter notebook (it has no nbformat)"));
     if (*format != 4)
-        refuse_notebook(name, Message("the notebook has nbformat {}, but dynlab reads nbformat 4: open and save it in "
-                                      "a current Jupyter, or run python3 -m nbconvert --to notebook",
+        refuse_notebook(name, Message("the notebook has nbformat {}, but dynlab reads nbformat 4. Open and save it in "
+                                      "a current version of Jupyter, or run: python3 -m nbconvert --to notebook FILE",
                                       format->dump()));
     const json& metadata = object_at(notebook, "metadata");
     for (const json* reported : {&object_at(metadata, "language_info"), &object_at(metadata, "kernelspec")}) {

@@ -128,7 +128,7 @@ Message first_line(const ChildResult& child) {
 
 [[noreturn]] void refuse_work(const ChildResult& child) {
     const std::string& said = child.error_output;
-    Message remedy = Message("dynlab passes the options after slurm: in --on to sbatch");
+    Message remedy = Message("dynlab passes the options that follow \"slurm:\" in --on to sbatch");
     if (said.find("partition") != std::string::npos) {
         const ChildResult known = ask_slurm({"sinfo", "--noheader", "--format=%R"});
         remedy = Message("the partitions of this cluster are {}", listed(words_between_spaces(known.output)));

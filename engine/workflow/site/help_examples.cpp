@@ -80,7 +80,7 @@ HelpExamples run_help_examples(const std::filesystem::path& folder, const Cache&
             options.out_folder = options.script_folder = folder;
             options.call_cache = &calls;
             RunRecord run = Runtime(options, renderer).run_code(script.cells[1].content, name + ".lua");
-            if (run.error) throw DocumentError(Message("the example of help {}: {}", name, run.error->text()));
+            if (run.error) throw DocumentError(Message("the example of the help page {}: {}", name, run.error->text()));
             take_results(name, std::move(run), examples.record);
         }
         examples.pages.emplace(name, std::move(script));

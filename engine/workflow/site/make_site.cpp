@@ -89,7 +89,7 @@ class SiteMaker {
         if (!request_.engine) return;
         for (const char* file : {"dynlab.js", "dynlab.wasm"})
             if (!fs::is_regular_file(*request_.engine / file))
-                throw EnvironmentError("{} has no {}; run scripts/build web to build the engine for browsers",
+                throw EnvironmentError("{} has no {}. To build the engine for browsers, run: scripts/build web",
                                        request_.engine->string(), file);
     }
 

@@ -188,7 +188,7 @@ TEST_F(csv_file, passes_over_what_is_around_a_table) {
                              "# t,y\n0,1\n1,2\n", "% t  y\n0 1\n1 2\n"})
         EXPECT_EQ(shown_table(read(text)), expected) << text;
     EXPECT_THAT(texts_of(read("A\nB\n\nt;y\n0;1\n1;2\n").notes),
-                ElementsAre("the table starts in line 4; 2 lines above it are skipped"));
+                ElementsAre("the table starts at line 4; 2 lines above it are skipped"));
     EXPECT_THAT(texts_of(read("# t,y\n0,1\n1,2\n").notes),
                 ElementsAre("the column names are read from the comment above the numbers"));
 }
@@ -201,7 +201,7 @@ TEST_F(csv_file, takes_missing_numbers_for_nan_and_says_so) {
         EXPECT_THAT(
             texts_of(table.notes),
             ElementsAre(
-                "missing numbers were replaced with NaN: 2 of 4 in y (first in line 2). Use fillmissing(u, {method = "
+                "missing numbers were replaced with NaN: 2 of 4 in y (first on line 2). Use fillmissing(u, {method = "
                 "\"previous\"}) for an input that is logged only when it changes, and fillmissing(y) for an output"));
     }
     const CsvTable benchmark = read("u,y,Ts,\n0,1,4,\n1,2,,\n2,3,,\n");

@@ -204,7 +204,7 @@ TEST(step_test, refuses_an_input_that_is_no_step) {
     EXPECT_THAT(refusal([&] { step_first_order(stairs); }), HasSubstr("but the two levels"));
     IdData nothing = data_of(e, 1, first_order(0.5));
     nothing.experiments[0].u.setZero();
-    EXPECT_THAT(refusal([&] { step_first_order(nothing); }), HasSubstr("zero throughout"));
+    EXPECT_THAT(refusal([&] { step_first_order(nothing); }), HasSubstr("zero in all samples"));
 }
 
 TEST(step_test, accepts_a_noisy_step_input) {  // oracle: the same data with a clean input

@@ -44,7 +44,7 @@ TEST(figure, gaps_are_allowed_but_not_only_gaps) {
     const double nan = std::nan("");
     EXPECT_EQ(complaint_of(figure_with(Vector::LinSpaced(3, 0, 1), Vector{{1, nan, 2}})), "");
     EXPECT_THAT(complaint_of(figure_with(Vector::Zero(2), Vector{{nan, std::numeric_limits<double>::infinity()}})),
-                HasSubstr("nothing to draw"));
+                HasSubstr("cannot be drawn"));
 }
 
 TEST(figure, ranges_must_run_upwards_and_be_positive_on_logarithmic_axes) {

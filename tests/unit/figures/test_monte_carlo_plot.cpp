@@ -61,7 +61,7 @@ TEST(monte_carlo_plot, far_estimates_do_not_squeeze_the_rest) {
     const Figure figure = monte_carlo_histograms(all);
     EXPECT_LT(figure.panels.front().x_range->second, 10);
     EXPECT_EQ(figure.panels.front().curves.front().y.sum(), 499);
-    EXPECT_EQ(message_text(figure.panels[0].title), "1 of 500 outside");
+    EXPECT_EQ(message_text(figure.panels[0].title), "1 of 500 outside the axes");
     EXPECT_EQ(message_text(figure.panels[1].title), "");
 }
 
@@ -72,8 +72,8 @@ TEST(monte_carlo_plot, many_far_estimates_do_not_squeeze_the_rest) {  // oracle:
     const Panel panel = monte_carlo_scatter(all, "a1", "b0").panels.front();
     EXPECT_LT(panel.x_range->second, 20);
     EXPECT_LT(panel.y_range->second, 10);
-    EXPECT_EQ(message_text(panel.title), "50 of 1000 outside");
-    EXPECT_EQ(message_text(monte_carlo_histograms(all).panels.front().title), "50 of 500 outside");
+    EXPECT_EQ(message_text(panel.title), "50 of 1000 outside the axes");
+    EXPECT_EQ(message_text(monte_carlo_histograms(all).panels.front().title), "50 of 500 outside the axes");
 }
 
 TEST(monte_carlo_plot, failed_runs_are_left_out) {

@@ -53,7 +53,7 @@ TEST(equation_error, what_is_refused) {  // oracle: the promises of the header
     noisy.nc = 1;
     EXPECT_THAT(thrown_message([&] { check_equation_error("arx", data, noisy); }), HasSubstr("nc, nd and nf"));
     EXPECT_THAT(thrown_message([&] { check_equation_error("arx", data.range(1, 3), kOrders); }),
-                HasSubstr("more equations than its 2 parameters, but the data provide 2"));
+                HasSubstr("more equations than parameters, but the data provide only 2"));
     IdData poor = simulated_data(200, 1);
     poor.experiments[0].u.setOnes();  // shows only the sum of two coefficients of B
     EXPECT_THAT(thrown_message([&] { solve_rich_arx("arx", poor, PolynomialOrders::arx(1, {2}, {0})); }),

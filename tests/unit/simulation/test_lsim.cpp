@@ -162,8 +162,8 @@ TEST(lsim, says_what_is_wrong) {
     EXPECT_EQ(thrown_message([] {
                   lsim(TransferFunction(from({1, 0}), from({1})), from({1}), 0.1);
               }),
-              "lsim: the transfer function has 1 zero but only 0 poles; an improper model cannot be simulated, because "
-              "it needs at least as many poles as zeros");
+              "lsim: the transfer function has 1 zero but only 0 poles; a simulation needs a model with at least as "
+              "many poles as zeros");
     EXPECT_EQ(thrown_message([] {
                   lsim(kSecondOrder, from({1}), 0.1, Hold::kZoh, from({1, 2, 3}));
               }),
@@ -172,7 +172,7 @@ TEST(lsim, says_what_is_wrong) {
         thrown_message([] {
             lsim(TransferFunction(from({1}), from({1, 0}), 0.2), from({1}), 0.1);
         }),
-        "lsim: the discrete-time model has Ts = 0.2 s, but the data have the sampling time 0.1 s; both must be equal");
+        "lsim: the sampling time of the discrete-time model is 0.2 s, but the sampling time of the data is 0.1 s. The sampling times must be equal");
     EXPECT_EQ(thrown_message([] { lsim(kSecondOrder, Vector(), 0.1); }), "lsim: the input has no samples");
     EXPECT_EQ(thrown_message([] {
                   state_variable_filter(from({1, 2}), 1000000, 3, 0.1);

@@ -283,7 +283,7 @@ TEST(prediction, refuses_what_it_cannot_predict) {  // oracle: definitions
     EXPECT_THAT(refusal(s.data(), noisy(PolynomialModel(kArmax, theta, 0.5))),
                 HasSubstr("C of the noise model has a root on or outside the unit circle"));
     const NoisyModel colored{{TransferFunction()}, nullptr, Vector{{1, 0.5}}, Vector::Ones(1), 1};
-    EXPECT_THAT(refusal(s.data(), colored), HasSubstr("both must be equal"));
+    EXPECT_THAT(refusal(s.data(), colored), HasSubstr("The sampling times must be equal"));
     EXPECT_THAT(
         refusal(IdData(Matrix(s.y), Matrix(s.u), Vector::LinSpaced(60, 0, 1).array().square().matrix()), colored),
         HasSubstr("sampled irregularly"));

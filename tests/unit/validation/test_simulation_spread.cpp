@@ -96,7 +96,7 @@ TEST(simulation_spread, refuses_what_makes_no_spread) {  // oracle: definitions
     RandomStream random;
     const UncertainModel uncertain(TransferFunction(Vector{{1.0}}, Vector{{1.0, 1.0}}), Matrix::Identity(2, 2));
     EXPECT_THAT(thrown_message([&] { simulation_spread(uncertain, Vector::Ones(9), 1, Hold::kZoh, 1, random); }),
-                HasSubstr("at least 2 runs"));
+                HasSubstr("number of runs must be at least 2"));
     EXPECT_THAT(thrown_message([&] { simulation_spread(uncertain, Vector::Ones(9), 1, Hold::kZoh, 6000000, random); }),
                 HasSubstr("too large"));
     const PolynomialModel model(PolynomialOrders::arx(1, {1}, {1}), Vector{{-0.5, 1}}, 1);

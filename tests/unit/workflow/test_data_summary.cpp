@@ -27,7 +27,7 @@ TEST(data_summary, shows_columns_units_sampling_gaps_and_first_rows) {
     EXPECT_THAT(look.text, ContainsRegex("y +39 numbers +1 +0.5 +0.5 +0.5\n"));
     EXPECT_THAT(look.text,
                 AllOf(HasSubstr("column time, from 0 s to 0.39 s"), HasSubstr("irregular, median step 0.01 s"),
-                      HasSubstr("gaps: 1, 0.02 s after 0.19 s\n"),
+                      HasSubstr("gaps: 1 (0.02 s after 0.19 s)\n"),
                       ContainsRegex("first rows:\n +time +u +label +y\n +0 +0 +a +0.5\n")));
     ASSERT_TRUE(look.figure);
     ASSERT_EQ(look.figure->panels.size(), 2u) << "u and y";

@@ -80,7 +80,7 @@ TEST(error_text, cuts_long_arguments_and_long_chains_of_calls) {
     EXPECT_THAT(text, HasSubstr("  a.lua:7: started a longer chain of calls\n    deep(1000, s)"));
     EXPECT_LT(text.size(), 2000u);
     EXPECT_THAT(shown(WorkFolder(), "local function f() return 1 + f() end\nf()\n", "b.lua"),
-                HasSubstr("b.lua:1: functions call each other without end"));
+                HasSubstr("b.lua:1: infinite recursion"));
 }
 
 TEST(error_text, names_a_required_file_with_its_folder_and_line) {

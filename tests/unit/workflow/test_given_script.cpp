@@ -49,10 +49,10 @@ TEST(given_script, that_is_no_script_is_refused_with_the_command_to_type) {
     work.write("data.csv", "t,y\n0,1\n");
     for (const std::string command : {"report", "run", "lint", "pack", "check"})
         EXPECT_EQ(message_text(why_no_script(work.path("mine/report.md"), command)),
-                  "report.md is the report's text: give the folder, as in dynlab " + command + " " +
+                  "report.md is the report's text. Give the folder, for example: dynlab " + command + " " +
                       work.path("mine").string());
     EXPECT_THAT(message_text(why_no_script(work.path("mine/report.pdf"), "weave")),
-                HasSubstr("report.pdf is the report's PDF: give the folder, as in dynlab weave "));
+                HasSubstr("report.pdf is the report's PDF. Give the folder, for example: dynlab weave "));
     EXPECT_EQ(message_text(why_no_script(work.path("data.csv"), "run")),
               "data.csv is a data table: give a script (.lua) or a notebook (.ipynb)");
     EXPECT_EQ(message_text(why_no_script(work.path("mine"), "run")), "");

@@ -292,7 +292,7 @@ class Approximation {
     void warn_about_data() {
         if (rest_ > 0)
             result_.warnings.push_back(
-                Message("The data do not contain a whole number of periods: the first {} are omitted.",
+                Message("The data do not contain a whole number of periods, so bla omits the first {}.",
                         plural(rest_, "{} sample", "{} samples")));
         if (lines_.some_differ)
             result_.warnings.push_back(
@@ -348,7 +348,10 @@ void BlaOptions::validate() const {
         throw InvalidArgument("bla: the threshold for the amplitude of the input must be between 0 and 1, but is {}",
                               least_input);
     if (smooth && *smooth < 0)
-        throw InvalidArgument("bla: the number of frequencies to smooth over must be nonnegative, but is {}", *smooth);
+        throw InvalidArgument(
+            "bla: the number of frequencies on each side over which variances are averaged must be nonnegative, but is "
+            "{}",
+            *smooth);
 }
 
 FrequencyData bla(const IdData& data, const BlaOptions& options) {

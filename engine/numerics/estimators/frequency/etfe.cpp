@@ -73,7 +73,8 @@ void describe(SpectralEstimate& estimate, const EtfeOptions& options, Index line
 
 void EtfeOptions::validate() const {
     if (smooth < 0)
-        throw InvalidArgument("etfe: the number of frequencies to smooth over must be nonnegative, but is {}", smooth);
+        throw InvalidArgument(
+            "etfe: the number of frequencies on each side for smoothing must be nonnegative, but is {}", smooth);
     if (!(least_input >= 0 && least_input < 1))
         throw InvalidArgument("etfe: the threshold for the amplitude of the input must be between 0 and 1, but is {}",
                               least_input);
@@ -92,7 +93,8 @@ SpectralEstimate etfe(const IdData& data, const EtfeOptions& options) {
     const Index N = U.size(), lines = N / 2;
     if (2 * options.smooth + 1 > lines)
         throw InvalidArgument(
-            "etfe: smoothing over {} frequencies is not possible, because the data have only {} frequencies",
+            "etfe: smoothing over {} frequencies is not possible, because the data have only {} frequencies. Use less "
+            "smoothing or more data",
             2 * options.smooth + 1, lines);
     const Vector amplitudes = U.segment(1, lines).cwiseAbs();
     const double least = options.least_input * amplitudes.maxCoeff();

@@ -95,7 +95,7 @@ void describe(SpectralEstimate& estimate, Index M, double averages, double Ts) {
     if (averages < 4)
         estimate.warnings.push_back(
             Message("The lag window is long for the number of samples: the errors are large, and their estimates are "
-                    "unreliable."));
+                    "unreliable. Use a shorter window or more data."));
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ Vector named_start(const GreyModel& model, const std::map<std::string, double>& 
             throw InvalidArgument("greyest: the option {} contains the parameter {}, which the model does not have",
                                   OptionName{"starts"}, name);
         if (!(value >= found->lower && value <= found->upper))
-            throw InvalidArgument("greyest: the option {} contains {} = {}, which is outside the bounds {} and {}",
+            throw InvalidArgument("greyest: the option {} contains {} = {}, which is not between the bounds {} and {}",
                                   OptionName{"starts"}, name, value, found->lower, found->upper);
         start[found - model.parameters.begin()] = value;
     }

@@ -161,7 +161,7 @@ void NarxLags::check(Index inputs) const {
                               plural(static_cast<Index>(nb.size()), "{} input", "{} inputs"), inputs);
     bool negative = na < 0;
     for (std::size_t j = 0; j < nb.size(); ++j) negative = negative || nb[j] < 0 || nk[j] < 0;
-    if (negative) throw InvalidArgument("narx: the numbers of lags must be nonnegative");
+    if (negative) throw InvalidArgument("narx: na, nb and nk must be nonnegative");
     if (variables() == 0) throw InvalidArgument("narx: the model uses no past values: na or nb must be at least 1");
 }
 
@@ -213,10 +213,12 @@ FreeRun NarxModel::free_run(const IdData& data, std::size_t experiment, const Ve
     check_channels("narx", *this, data);
     if (!data.regular() || std::abs(data.Ts - Ts_) > 1e-6 * Ts_)
         throw InvalidArgument(
-            data.regular()
-                ? Message("narx: the sampling time of the model is {} s, but the sampling time of the data is {} s",
-                          Ts_, data.Ts)
-                : Message("narx: the sampling time of the model is {} s, but the data are irregularly sampled", Ts_));
+            data.regular() ? Message("narx: the sampling time of the model is {} s, but the sampling time of the data "
+                                     "is {} s. Resample the data",
+                                     Ts_, data.Ts)
+                           : Message("narx: the sampling time of the model is {} s, but the data are irregularly "
+                                     "sampled. Interpolate the data at equally spaced instants (interp1)",
+                                     Ts_));
     const Experiment& data_set = data.experiments[experiment];
     const Index N = data_set.u.rows() > 0 ? data_set.u.rows() : data_set.y.rows(), first = lags_.first();
     if (N <= first)

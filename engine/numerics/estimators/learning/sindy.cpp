@@ -48,7 +48,7 @@ Rotated rotated_equations(const IdData& data, const FunctionLibrary& library, co
                         "Use more samples, a smaller {} or fewer functions",
                         functions, rotated.rows, OptionName{"width"})
               : Message("sindy: the number of equations must be greater than the number of functions, {}, but is {}. "
-                        "Use more samples or fewer functions, or {} if the input jumps often",
+                        "Use more samples or fewer functions, or {} = true if the input jumps often",
                         functions, rotated.rows, OptionName{"weak"}));
 }
 
@@ -194,7 +194,7 @@ FreeRun SindyModel::free_run(const IdData& data, std::size_t experiment, const V
     const Vector t = data.time(experiment);
     const Index N = t.size(), n = output_count();
     if (x0.size() != 0 && x0.size() != n)
-        throw InvalidArgument("sindy: x0 must have {} at the first sample, but has {}",
+        throw InvalidArgument("sindy: x0 must contain the {} at the first sample, but has {}",
                               plural(n, "{} state", "{} states"), plural(x0.size(), "{} value", "{} values"));
     FreeRun run{Matrix::Constant(N, n, kNaN), {}, Message("from the first sample of the data")};
     OdeState x = OdeState::Zero(n);
@@ -240,7 +240,7 @@ FreeRun SindyModel::free_run(const IdData& data, std::size_t experiment, const V
 
 void SindyOptions::validate() const {
     if (!(threshold >= 0 && threshold < 1))
-        throw InvalidArgument("sindy: {}, a fraction of the rate, must be at least 0 and less than 1, but is {}",
+        throw InvalidArgument("sindy: {}, a fraction of the derivative, must be at least 0 and less than 1, but is {}",
                               OptionName{"threshold"}, threshold);
     if (window < 3 || window % 2 == 0)
         throw InvalidArgument("sindy: {} must be an odd number of samples, at least 3, but is {}", OptionName{"window"},

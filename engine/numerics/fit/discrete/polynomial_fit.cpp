@@ -17,9 +17,10 @@ void check_polynomial_data(const std::string& method, const IdData& data, const 
     const int longest_delay = *std::max_element(orders.nk.begin(), orders.nk.end());
     for (std::size_t e = 0; e < data.experiments.size(); ++e)
         if (longest_delay >= data.sample_count(e))
-            throw InvalidArgument("{}: the delay nk = {} is not shorter than the data of {}", method,
-                                  plural(longest_delay, "{} sample", "{} samples"),
-                                  plural(data.sample_count(e), "{} sample", "{} samples"));
+            throw InvalidArgument(
+                "{}: the delay nk = {} is not shorter than the data, which have {}. Decrease nk, or use more data",
+                method, plural(longest_delay, "{} sample", "{} samples"),
+                plural(data.sample_count(e), "{} sample", "{} samples"));
 }
 
 Fit polynomial_fit(const PolynomialOrders& orders, const VectorView& theta, double Ts) {

@@ -84,8 +84,8 @@ std::optional<UndeterminedRoot> undetermined_root(char letter, const Vector& p, 
     for (Index i = 1; i < p.size(); ++i)
         found.names.push_back(std::string(1, letter == 'C' ? 'c' : 'd') + std::to_string(i));
     found.warning = Message(
-        "A root of {} is so close to the unit circle (magnitude {}) that {} samples do not determine the distance. The "
-        "standard errors of {} are not available.",
+        "A root of {} is so close to the unit circle (magnitude {}) that {} samples do not determine its distance from "
+        "the circle. The standard errors of {} are not available.",
         std::string(1, letter), significant(largest, 4), samples, listed(found.names));
     return found;
 }

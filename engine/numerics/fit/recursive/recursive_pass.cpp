@@ -331,7 +331,7 @@ Fit run_pass(AnyPass& pass, const RecursiveName& method, const IdData& data, con
     if (!pass.known())
         throw InvalidArgument(
             "{}: the samples do not determine the parameters, because the input does not excite the system enough for "
-            "{} parameters",
+            "{} parameters. Use a richer input, such as a PRBS, or fewer poles and zeros",
             method.name, d);
     fit.theta = pass.theta();
     fit.covariance = pass.covariance();
@@ -373,8 +373,9 @@ void check_recursive_data(const RecursiveName& method, const IdData& data, const
     if (structure.free_delays)
         throw InvalidArgument("{}: this method does not estimate delays; use srivc or coe", method.name);
     if (data.experiments.size() != 1)
-        throw InvalidArgument("{}: the data must have one experiment, but they have {}", method.name,
-                              data.experiments.size());
+        throw InvalidArgument(
+            "{}: the data must have one experiment, but they have {}; select one with data:experiment(k)", method.name,
+            data.experiments.size());
     if (data.input_count() != 1 || data.output_count() != 1)
         throw InvalidArgument("{} requires one input and one output, but the data have {} and {}", method.name,
                               data.input_count(), data.output_count());

@@ -174,7 +174,10 @@ Profile profile_likelihood(const RefittedOutput& model, const std::string& name,
     profile.estimate = base.theta[place];
     profile.std = base.std[place];
     profile.level = chi_squared_quantile(options.confidence, 1);
-    if (!(base.loss > 0)) throw InvalidArgument("profile: the fit is perfect, so every other value is excluded");
+    if (!(base.loss > 0))
+        throw InvalidArgument(
+            "profile: all residuals are zero, so no confidence interval can be computed. Use measured data, or add "
+            "noise");
     Ends ends = first_ends(model, place, base, options);
     const auto [lower, upper] = model.bounds(place);
     const IdData& data = model.data();
@@ -199,7 +202,9 @@ Profile profile_likelihood(const RefittedOutput& model, const std::string& name,
     }
     if (const auto moved = model.moved(base)) profile.warnings.push_back(*moved);
     if (search.rise(base.loss, least) > 0.01)
-        profile.warnings.push_back(Message("Another value of the parameter has a better fit than the estimate."));
+        profile.warnings.push_back(
+            Message("Another value of the parameter results in a better fit, so the estimate is only a local minimum "
+                    "of the loss."));
     read_interval(profile, search, fits, least);
     profile.canceled = search.canceled();
     warn_of_color(profile, model, base);

@@ -23,7 +23,7 @@ constexpr std::array kGreyOptions = {
                                         {.initial = "\"model\"", .choices = kGreyStarts, .member = "initial_state"}),
     option<&GreyOptions::max_iterations>("MaxIter", about("maximum number of iterations"),
                                          {.minimum = 0, .member = "max_iterations"}),
-    option<&GreyOptions::tolerance>("Tol", about("relative change of the parameters at which the search stops"),
+    option<&GreyOptions::tolerance>("Tol", about("relative change of the parameters below which the search stops"),
                                     {.initial = "1e-6", .member = "tolerance"}),
     option<&GreyOptions::relative_tolerance>(
         "RelTol",

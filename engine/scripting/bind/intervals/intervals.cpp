@@ -41,9 +41,9 @@ constexpr OptionTable kBootstrapTables[] = {kBootstrapOptions, kSimulationStart}
                       kProfileTables[] = {kProfileOptions, kSimulationStart};
 
 constexpr ArgumentEntry
-    kEstimateArgument = {"G", ValueKind::kModel,
-                         about("estimate by `procsrivc`, `tfsrivc`, `srivc`, `coe` or `tfcoe` with one input and one "
-                               "output")},
+    kEstimateArgument =
+        {"G", ValueKind::kModel,
+         about("model with one input and one output, estimated by `procsrivc`, `tfsrivc`, `srivc`, `coe` or `tfcoe`")},
     kItsDataArgument = {"data", ValueKind::kData, about("data object from which the model was estimated")};
 constexpr std::array kBootstrapArguments = {kEstimateArgument, kItsDataArgument};
 constexpr ArgumentEntry kProfileArguments[] = {

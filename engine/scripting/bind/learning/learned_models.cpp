@@ -34,7 +34,7 @@ constexpr std::array kSindyOptions = {
                 about("names of the library functions in the equations; by default f1, f2 and so on")},
     OptionEntry{"degree",
                 ValueKind::kCount,
-                about("maximum number of factors in a product of states and inputs; only without a library"),
+                about("maximum number of factors in a product of states and inputs; used only without `library`"),
                 {.initial = "2", .member = "degree"}},
     option<&SindyOptions::threshold>(
         "threshold",
@@ -45,10 +45,10 @@ constexpr std::array kSindyOptions = {
                                 about("true uses the weak form: integrals with smooth test functions, which average "
                                       "the noise, instead of derivatives"),
                                 {.member = "weak"}),
-    option<&SindyOptions::window>(
-        "window",
-        about("odd number of samples of the polynomial fit that provides state and derivative; only if weak is false"),
-        {.member = "window"}),
+    option<&SindyOptions::window>("window",
+                                  about("odd number of samples of the polynomial fit that provides the state and its "
+                                        "derivative; used only if `weak` is false"),
+                                  {.member = "window"}),
     option<&SindyOptions::width>("width", about("half the width of a test function; by default chosen from the data"),
                                  {.unit = "s", .member = "width"})};
 constexpr std::array kDmdcOptions = {

@@ -32,9 +32,9 @@ void read_function(lua_State* L, lua_Integer place, Eigen::Ref<Vector> column) {
         throw InvalidArgument("function {} of the library must return a vector or a number, but returned {}", place,
                               given_value(L, -1));
     if (block->vector().size() != column.size())
-        throw InvalidArgument("function {} of the library returned {} for {}", place,
-                              plural(block->vector().size(), "{} value", "{} values"),
-                              plural(column.size(), "{} sample", "{} samples"));
+        throw InvalidArgument(
+            "function {} of the library returned {} for {}; it must return one value per sample, or one number", place,
+            plural(block->vector().size(), "{} value", "{} values"), plural(column.size(), "{} sample", "{} samples"));
     column = block->vector();
 }
 

@@ -195,7 +195,7 @@ TEST(sindy, refuses_what_cannot_be_fitted) {
     SindyOptions options;
     options.threshold = 1;
     EXPECT_THAT(thrown_message([&] { polynomials(data, 1, options); }),
-                HasSubstr("`threshold`, a fraction of the rate, must be at least 0"));
+                HasSubstr("`threshold`, a fraction of the derivative, must be at least 0"));
     options = {};
     options.window = 4;
     EXPECT_THAT(thrown_message([&] { polynomials(data, 1, options); }), HasSubstr("`window` must be an odd number"));
@@ -208,7 +208,7 @@ TEST(sindy, refuses_what_cannot_be_fitted) {
     EXPECT_THAT(thrown_message([&] { polynomials(still, 1); }), HasSubstr("never changes"));
     const SindyFit found = polynomials(data, 1);
     EXPECT_THAT(thrown_message([&] { found.model->free_run(data, 0, Vector::Ones(3)); }),
-                HasSubstr("x0 must have 2 states"));
+                HasSubstr("x0 must contain the 2 states"));
     EXPECT_THAT(thrown_message([&] { found.model->free_run(still, 0, Vector()); }), HasSubstr("select the channels"));
 }
 
