@@ -99,7 +99,7 @@ TEST_F(corrections, times_come_from_the_platform_s_worksheet) {
         course_.bench().write("all/Student " + std::string(id) + "_90000" + id + "_assignsubmission_file_/report.pdf",
                               small_pdf(id));
     EXPECT_THAT(done({"submit", "all", "--at", "2026-03-01 19:00", "--times", "sheet.csv", "--no-checks"}),
-                AllOf(ContainsRegex("group-01 .* in time"), ContainsRegex("group-02 .* late by 11 min"),
+                AllOf(ContainsRegex("group-01 .* on time"), ContainsRegex("group-02 .* late by 11 min"),
                       ContainsRegex("group-03 .* late by 7 h")));
     course_.bench().write("bad.csv", "Identifier,Grade\nParticipant 1,3\n");
     EXPECT_THAT(course({"submit", "all", "--times", "bad.csv"}).error_output,
@@ -116,7 +116,7 @@ TEST_F(corrections, times_come_from_the_archive) {
         "in/group-02/report.pdf && cd in && tar czf ../all.tar.gz .");
     EXPECT_THAT(done({"submit", "all.tar.gz", "--at", "2026-03-05 19:00", "--times", "archive", "--no-checks",
                       "--isolation", CourseBench::level()}),
-                AllOf(ContainsRegex("group-01 .* in time"), ContainsRegex("group-02 .* late by 2 h")));
+                AllOf(ContainsRegex("group-01 .* on time"), ContainsRegex("group-02 .* late by 2 h")));
 }
 
 TEST_F(corrections, lateness_follows_deadlines_and_extensions) {
@@ -146,7 +146,7 @@ TEST_F(corrections, a_version_with_the_content_of_an_earlier_one_is_as_late_as_t
     submit_file("one", "2026-03-01 10:00");
     EXPECT_THAT(submit_file("two", "2026-03-01 20:00"), HasSubstr("late by 8 h"));
     EXPECT_THAT(submit_file("one", "2026-03-02 06:00"),
-                AllOf(HasSubstr("1 file accepted, 0 late"), ContainsRegex("v3 +in time +the same file as v1 of ")));
+                AllOf(HasSubstr("1 file accepted, 0 late"), ContainsRegex("v3 +on time +the same file as v1 of ")));
     EXPECT_THAT(status(), ContainsRegex("group-01 +1 +v3  "));
     EXPECT_THAT(shell("cat k/receipts/crane/00003-*"), HasSubstr("late: 18 h\n"));  // when this version came
     EXPECT_THAT(course({"verify"}).output, HasSubstr("complete and unaltered"));

@@ -50,7 +50,7 @@ TEST(packed_submissions, the_report_of_a_pack_counts) {
     CourseBench::expect_done(taken);
     EXPECT_THAT(taken.output,
                 AllOf(ContainsRegex("group-01 +pack +v1"), ContainsRegex("group-01 +report \\(from the pack\\) +v1"),
-                      ContainsRegex("group-02 +report \\(from the pack\\) +v1 +in time +[1-9][0-9]* rule"),
+                      ContainsRegex("group-02 +report \\(from the pack\\) +v1 +on time +[1-9][0-9]* rule"),
                       ContainsRegex("group-03 +pack .*the pack contains no PDF, and none can be created from it "
                                     "\\(.*stopped.*\\): ask the group for this file"),
                       ContainsRegex("group-04 +pack .*the pack contains 2 PDF files; exactly one must be named "
@@ -142,7 +142,7 @@ TEST(packed_submissions, late_reviews_and_late_second_versions_are_distinguished
     review("group-02", "good", "2026-03-09 10:00");
     const std::string status = bench.course({"status", "crane", "--at", "2026-03-09 12:00"}).output;
     EXPECT_THAT(status,
-                AllOf(ContainsRegex("group-01 +1 +v2 \\(v1 in time\\)[^\n]* 1 of 1  "),
+                AllOf(ContainsRegex("group-01 +1 +v2 \\(v1 on time\\)[^\n]* 1 of 1  "),
                       ContainsRegex("group-02 +1 +v1[^\n]* 1 of 1, 1 late"), HasSubstr("3 groups: 3 submitted;")));
     const std::string csv = bench.course({"export", "crane"}).output;
     EXPECT_THAT(csv, AllOf(HasSubstr(",reviews written,reviews late (h),"), HasSubstr(",2026-03-01 13:00,0,"),
@@ -177,9 +177,9 @@ TEST(packed_submissions, a_first_version_after_the_reviews_is_asked_about) {
         "sqlite3 k/course.db \"INSERT INTO sendings (pair, way, version, hash, made_at) SELECT pair, 'to author', "
         "version, "
         "hash, 0 FROM sendings\"");
-    EXPECT_THAT(
-        bench.submit_file("group-02.pdf", small_pdf("last"), "2026-03-07 10:00").error_output,
-        HasSubstr("the reviews of the report of group-02 are already released: did you mean dynlab course submit --stage final?"));
+    EXPECT_THAT(bench.submit_file("group-02.pdf", small_pdf("last"), "2026-03-07 10:00").error_output,
+                HasSubstr("the reviews of the report of group-02 are already released: did you mean dynlab course "
+                          "submit --stage final?"));
     EXPECT_THAT(bench.course({"status", "crane", "--at", "2026-03-09 12:00"}).output,
                 HasSubstr("Next: dynlab course scores crane FILE.csv, then dynlab course marks crane"));
     CourseBench::expect_done(bench.submit_file("group-02.pdf", small_pdf("again"), "2026-03-09 10:00"));  // known
@@ -201,7 +201,7 @@ TEST(packed_submissions, takes_folders_as_students_keep_them) {
     const ChildResult taken = receive(bench, {"in"}, kInTime);
     EXPECT_THAT(taken.output,
                 AllOf(HasSubstr("3 files accepted"), ContainsRegex("group-01 +report +v1"),
-                      ContainsRegex("group-02 +unreadable +v2 +in time +other-kind: ask the group for a readable")));
+                      ContainsRegex("group-02 +unreadable +v2 +on time +other-kind: ask the group for a readable")));
     EXPECT_THAT(taken.error_output, AllOf(HasSubstr("pipe: not a regular file"), Not(HasSubstr("group-01")),
                                           Not(HasSubstr("filesystem")), Not(HasSubstr("data"))));
 }

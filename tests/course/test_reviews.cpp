@@ -95,7 +95,7 @@ TEST(reviews, that_contain_a_name_are_reported_at_receipt) {
                      "--at", "2026-03-03 10:00"})
             .output;
     };
-    EXPECT_THAT(submit_file("fair.pdf", 1), AllOf(HasSubstr("in time"), Not(HasSubstr("broken"))));
+    EXPECT_THAT(submit_file("fair.pdf", 1), AllOf(HasSubstr("on time"), Not(HasSubstr("broken"))));
     EXPECT_THAT(submit_file("loose.pdf", 2), HasSubstr("rules violated: a name was found"));
     const ChildResult findings = course.course({"findings", "group-01", "--stage", "review"});
     EXPECT_EQ(findings.exit_code, 1);

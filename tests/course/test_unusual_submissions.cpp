@@ -26,7 +26,7 @@ TEST(unusual_submissions, what_a_word_processor_wrote_is_kept_and_flagged) {
     CourseBench bench(3, 1);
     const std::string text = "PK\x03\x04 what Word writes";
     EXPECT_THAT(reported(bench.submit_file("group-01.docx", text, kInTime, {"--no-checks"})),
-                AllOf(ContainsRegex("group-01 +report +v1 +in time +not-pdf: ask the group for a readable file"),
+                AllOf(ContainsRegex("group-01 +report +v1 +on time +not-pdf: ask the group for a readable file"),
                       HasSubstr("1 file accepted")));
     EXPECT_THAT(reported(bench.course({"status", "crane", "--at", "2026-03-01 11:00"})),
                 ContainsRegex("group-01 .*ask for a readable .*\\(not-pdf\\)"));
@@ -42,7 +42,7 @@ TEST(unusual_submissions, what_a_word_processor_wrote_is_kept_and_flagged) {
     reported(bench.course({"review", "assign", "--at", "2026-03-01 13:00"}));
     bench.bench().write("review.docx", "text");
     EXPECT_THAT(reported(bench.course({"review", "collect", "review.docx", "--from", "group-02", "--at", kInTime})),
-                ContainsRegex("group-02 +report-[0-9]+ +v1 +in time +not-pdf: ask"));
+                ContainsRegex("group-02 +report-[0-9]+ +v1 +on time +not-pdf: ask"));
 }
 
 TEST(unusual_submissions, several_reviews_are_reported_in_one_call) {
@@ -79,7 +79,7 @@ TEST(unusual_submissions, a_version_that_was_there_before_and_a_review_as_a_repo
             bench.submit_file(CourseBench::group(i) + ".pdf", small_pdf(std::to_string(i)), kInTime, {"--no-checks"}));
     reported(bench.submit_file("group-01.pdf", small_pdf("other"), "2026-03-01 11:00", {"--no-checks"}));
     EXPECT_THAT(reported(bench.submit_file("group-01.pdf", small_pdf("1"), "2026-03-01 18:00", {"--no-checks"})),
-                ContainsRegex("v3 +in time +the same file as v1 of Sun 2026-03-01 10:00"));
+                ContainsRegex("v3 +on time +the same file as v1 of Sun 2026-03-01 10:00"));
     reported(bench.course({"review", "assign", "--at", "2026-03-02 10:00"}));
     EXPECT_THAT(reported(bench.course({"findings", "group-01"})), Not(HasSubstr("No copy")));
     bench.bench().write("review.pdf", small_pdf("a review"));
@@ -109,7 +109,7 @@ TEST(unusual_submissions, another_time_of_a_known_file_is_reported) {
     reported(
         bench.course({"set-received", "crane", "group-01", "2026-03-01 11:30", "--reason", "the platform's list"}));
     EXPECT_THAT(receive({"--times", "times.csv"}),
-                ContainsRegex("group-01 .*in time +already received; nothing changed"));
+                ContainsRegex("group-01 .*on time +already received; nothing changed"));
 }
 
 TEST(unusual_submissions, reports_are_held_against_what_their_lesson_asks_for) {
@@ -154,8 +154,8 @@ TEST(unusual_submissions, what_canvas_calls_late_is_reported_where_the_time_does
     EXPECT_THAT(
         reported(bench.course({"submit", "in", "--at", kInTime, "--no-checks", "--isolation", bench.level()})),
         AllOf(ContainsRegex(
-                  "group-01 +report +v1 +in time +marked late by the platform: enter the time of receipt with --times"),
-              ContainsRegex("group-02 +report +v1 +in time *\n")));
+                  "group-01 +report +v1 +on time +marked late by the platform: enter the time of receipt with --times"),
+              ContainsRegex("group-02 +report +v1 +on time *\n")));
 }
 
 }  // namespace test_unusual_submissions

@@ -114,7 +114,8 @@ TEST(script_errors, put_what_lua_says_into_plain_words) {
         {"local y = 1%0", "lesson.lua:1: the remainder of a division by zero is undefined"},
         {"local t = {}\nt[nil] = 1", "lesson.lua:2: the key of the table is nil (it has no value)"},
         {"local function f() return 1 + f() end\nf()",
-         "lesson.lua:1: infinite recursion (stack overflow): a function calls itself, directly or through other functions, and never stops"},
+         "lesson.lua:1: infinite recursion (stack overflow): a function calls itself, directly or through other "
+         "functions, and never stops"},
         {"error()", "lesson.lua:1: error() was called without a message"},
         {"error('my own words')", "lesson.lua:1: my own words"},
         {"error({code = 2})", "lesson.lua:1: {code = 2}"},
@@ -125,7 +126,8 @@ TEST(script_errors, hint_at_lua_where_a_line_is_matlab) {
     check({
         {"local y = x'", "lesson.lua:1: unterminated string; the transpose is A:t(); a vector is already a column"},
         {"local z = x.*y",
-         "lesson.lua:1: expected a name before '*'; write x*y for vectors and A:times(B) for matrices, instead of x.*y and A.*B"},
+         "lesson.lua:1: expected a name before '*'; write x*y for vectors and A:times(B) for matrices, instead of x.*y "
+         "and A.*B"},
         {"local z = x./y", "lesson.lua:1: expected a name before '/'; for vectors, write x/y instead of x./y"},
         {"local z = x.^2", "lesson.lua:1: expected a name before '^'; for vectors, write x^2 instead of x.^2"},
         {"local k = 0:N-1",
@@ -145,7 +147,8 @@ TEST(script_errors, hint_at_lua_where_a_line_is_matlab) {
         {"local x = {}\nx(end+1) = 3",
          "lesson.lua:2: unexpected 'end'; the last element is x[#x]; vector{x, y} appends y to x"},
         {"print(A[1,2])", "lesson.lua:1: expected ']' before ','; the element in row 1 and column 2 is A[{1, 2}]"},
-        {"local b = a > 1 ? 2 : 3", "lesson.lua:1: unexpected '?'; Lua has no '?' operator; write if ... then ... else ... end"},
+        {"local b = a > 1 ? 2 : 3",
+         "lesson.lua:1: unexpected '?'; Lua has no '?' operator; write if ... then ... else ... end"},
         {"print(1) end", "lesson.lua:1: unexpected 'end': no block is open"},
         {"print(2 + 1i)",
          "lesson.lua:1: unexpected '1i'; dynlab has no complex arithmetic; complex numbers returned by functions have "
@@ -153,7 +156,8 @@ TEST(script_errors, hint_at_lua_where_a_line_is_matlab) {
         {"if a != b then end", "lesson.lua:1: expected 'then' before '!'; write 'not equal' as ~= in Lua"},
         {"if a = b then end", "lesson.lua:1: expected 'then' before '='; to compare, write == instead of ="},
         {"local s = 1 + ...\n 2", "lesson.lua:2: unexpected '2'"},
-        {"for k = 1:10\nend", "lesson.lua:1: expected ',' before ':'; write a loop in the form: for k = 1, N do ... end"},
+        {"for k = 1:10\nend",
+         "lesson.lua:1: expected ',' before ':'; write a loop in the form: for k = 1, N do ... end"},
         {"local x = A\\b", "lesson.lua:1: unexpected '\\'; write A\\b as solve(A, b)"},
         {"if true then\nprint(1)\n", "lesson.lua:1: the 'if' in line 1 has no 'end'"},
         {"for i = 1, 2 do print(1)", "lesson.lua:1: the 'for' in line 1 has no 'end'"},
@@ -189,7 +193,8 @@ TEST(script_errors, name_characters_that_no_program_can_hold) {
         {"local x = 2\u00b7pi", "lesson.lua:1: unexpected character \u00b7 (U+00B7); replace it with *"},
         {"local x =\u00a03", "lesson.lua:1: unexpected character \u00a0 (U+00A0); replace it with a space"},
         {"local l\u00e9ger = 1",
-         "lesson.lua:1: unexpected character \u00e9 (U+00E9); a name may contain only the letters a to z and A to Z, digits and "
+         "lesson.lua:1: unexpected character \u00e9 (U+00E9); a name may contain only the letters a to z and A to Z, "
+         "digits and "
          "_"},
         {"local x = '\u00e9' -- \u2013\nprint(y)", "lesson.lua:2: unknown function or variable 'y'"},
         {"local x = 1 \xe9", "lesson.lua:1: unexpected byte that is not UTF-8; save the script as UTF-8"},
@@ -250,8 +255,11 @@ TEST(script_errors, name_argument_wanted_and_given) {
         {"dot({1}, {1, 2})", "lesson.lua:1: dot: a has 1 value, but b has 2"},
         {"rng(-1)", "lesson.lua:1: rng: the seed must be a whole number from 0 to 4294967295, but -1 was given"},
         {"sqrt(-2)", "lesson.lua:1: sqrt: the function is undefined for the negative number -2"},
-        {"norm({1}, {2})",
-         "lesson.lua:1: norm: accepts at most 1 argument, but 2 were given; write the options as one table {name = "
+        {"norm({1}, {2})", "lesson.lua:1: norm: accepts at most 1 argument, but 2 were given"},
+        {"toc(1)", "lesson.lua:1: toc: accepts no arguments, but 1 was given"},
+        {"histogram({1, 2}, 'bins', 3)",
+         "lesson.lua:1: histogram: accepts at most 2 arguments, but 3 were given; write the options as one table {bins "
+         "= "
          "value}"},
     });
 }

@@ -135,7 +135,7 @@ print(P.low < 0.33, P.high > 0.33)
                 testing::AllOf(HasSubstr("3\ttrue\ttrue\n"), HasSubstr("\ntrue\ttrue\n")));
     EXPECT_THAT(printed(data_set + "profile(G, data, 'a1')"), HasSubstr("its parameters are Kp, Tp1, Td"));
     EXPECT_THAT(printed(data_set + "bootstrap(lssvf(data, {1, 1, 3}, 2), data)"),
-                HasSubstr("lssvf is not a suitable method"));
+                HasSubstr("this model, estimated by lssvf, is not suitable"));
     EXPECT_THAT(printed(data_set + "bootstrap(tf({1}, {1, 1}), data)"), HasSubstr("specified, not estimated"));
 }
 

@@ -27,9 +27,8 @@ TEST(script_vectors, measure_matrices_by_columns) {
     EXPECT_EQ(printed("print(median{5, 1, 3}, median{4, 1, 3, 2}, sum(gt({1, 5, 7}, 2)), sum(5), sum(zeros(0)))"),
               "3\t2.5\t2\t5\t0\n");
     EXPECT_EQ(error_of("median{}"), "lesson.lua:1: median: argument 1 (v) has no elements");
-    EXPECT_EQ(
-        error_of("std(matrix{{1, 2}})"),
-        "lesson.lua:1: std: the standard deviation of a single value is undefined; at least two values are required");
+    EXPECT_EQ(error_of("std(matrix{{1, 2}})"),
+              "lesson.lua:1: std: one value has no spread; at least two values are required");
 }
 
 TEST(script_vectors, round_and_take_logarithms) {
@@ -164,7 +163,8 @@ TEST(script_vectors, are_summed_up) {
         printed("print(polyval({1, 2, 3}, 2), polyval({1, 0}, {1, 2}), interp1({0, 1, 2}, {0, 10, 0}, {0.5, 1.5, 2}))"),
         "11\t[1 2]\t[5 5 0]\n");
     EXPECT_EQ(error_of("interp1({0, 1}, {0, 1}, 2)"),
-              "lesson.lua:1: interp1: interpolation at 2 is not possible, because x ranges from 0 to 1. To use the values of the end points outside this range, specify outside = \"hold\"");
+              "lesson.lua:1: interp1: interpolation at 2 is not possible, because x ranges from 0 to 1. To use the "
+              "values of the end points outside this range, specify outside = \"hold\"");
 }
 
 TEST(script_vectors, form_matrices) {

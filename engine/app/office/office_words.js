@@ -37,7 +37,7 @@ addWords({
   // Student
   student: tr("Student"), search: tr("Name, id, address or group"), searchAbout: tr("Type a name and press Enter."),
   until: tr("until {}"), before: tr("before: {}"), received: tr("Received"), file: tr("File"), state: tr("State"), receipt: tr("Receipt"),
-  inTime: tr("in time"), lateBy: tr("late by {}"), withdrawn: tr("withdrawn"), withdraw: tr("Withdraw"), restore: tr("Restore"),
+  inTime: tr("on time"), lateBy: tr("late by {}"), withdrawn: tr("withdrawn"), withdraw: tr("Withdraw"), restore: tr("Restore"),
   correctTime: tr("Correct the time"), dueAs: tr("{} is due {} ({})"), asForAll: tr("as for the class"), mark: tr("Mark"), history: tr("History"),
   nothingMissing: tr("0 %: nothing was submitted"), notMarked: tr("not marked yet"), nothingSubmitted: tr("Nothing was submitted."),
 

@@ -119,7 +119,7 @@ void add_file_options(const CorrectionCommand& command) {
         ->type_name("report-NN");
     command.app
         ->add_option("--part", command.args->requested.part,
-                     "Submission to withdraw. Default: the document and all files submitted with it.")
+                     "File to change. Default: the document and all files submitted with it.")
         ->check(CLI::IsMember({"report", "slides", "script", "review", "pack", "unreadable"}));
     command.app
         ->add_option("--version", command.args->requested.number, "Number of the submission. Default: the newest.")

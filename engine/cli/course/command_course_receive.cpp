@@ -71,7 +71,7 @@ void show(const ReceiveOutcome& outcome, const std::string& stage, bool timed) {
     int fresh = 0, late = 0;
     for (const Received& r : outcome.received) {
         rows.push_back({r.group, what(r), fmt::format("v{}", r.version),
-                        r.late > 0 ? "late by " + duration_text(r.late) : "in time", message_text(remark(r))});
+                        r.late > 0 ? "late by " + duration_text(r.late) : "on time", message_text(remark(r))});
         fresh += !r.known;
         late += !r.known && r.late > 0;
         if (!r.known && r.late > 0) late_by.push_back(r.late);

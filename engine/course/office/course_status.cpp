@@ -32,7 +32,7 @@ std::string cell_of(const SubmittedParts& parts, const std::string& main) {
     const SubmittedFile& h = found->second;
     std::string cell = fmt::format("v{}", h.version);
     if (h.late > 0 && h.in_time > 0)
-        cell += fmt::format(" (v{} in time)", h.in_time);
+        cell += fmt::format(" (v{} on time)", h.in_time);
     else if (h.late > 0)
         cell += " late " + duration_text(h.late);
     if (!h.error_reason.empty())

@@ -149,7 +149,7 @@ std::string work_text(const WhoWork& work, const CourseClock& clock) {
                         : !version.error_reason.empty()
                             ? fmt::format("{}: {}", version.name, message_text(version.error_reason))
                         : version.late > 0 ? "late by " + duration_text(version.late)
-                                           : "in time",
+                                           : "on time",
                         fmt::format("{:05}", version.id)});
     std::string text = fmt::format("\n{} ({})\n", work.assignment.name, work.assignment.kind);
     if (!rows.empty()) text += aligned_table({"group", "what", "received", "state", "receipt"}, rows);

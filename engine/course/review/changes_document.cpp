@@ -101,7 +101,7 @@ RunRecord record_of(const GroupChanges& g, const Course& course, const Assignmen
         for (const ValidFile& file : *stage)
             files.rows.push_back({stage == &g.first ? "first" : "final", fmt::format("{} v{}", file.part, file.number),
                                   clock.show(file.received_at),
-                                  file.late > 0 ? "late " + duration_text(file.late) : "in time"});
+                                  file.late > 0 ? "late by " + duration_text(file.late) : "on time"});
     std::string summary;
     const auto say = [&](const Message& sentence) { summary += escaped(message_text(sentence)) + "\n\n"; };
     if (g.first.empty()) say(Message("No first version exists for comparison."));

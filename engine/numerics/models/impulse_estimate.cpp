@@ -32,6 +32,7 @@ void read_dead_time(ImpulseEstimate& estimate, double Ts, Hold hold, double half
                             first_time)
                   : Message("The response first exceeds the noise at lag {} ({} s); the dead time is about {} s ({}).",
                             first, first_time, dead_time, plural(dead, "{} sample", "{} samples"));
+    estimate.dead_time = dead_time;
     estimate.message = sentences({estimate.message, found});
 }
 

@@ -9,7 +9,9 @@ namespace {
 
 void check_points(const VectorView& x, const VectorView& y) {
     if (x.size() != y.size()) throw InvalidArgument("x has {} values, but y has {}", x.size(), y.size());
-    if (x.size() < 2) throw InvalidArgument("interpolation needs at least two points, but {} was given", x.size());
+    if (x.size() < 2)
+        throw InvalidArgument("interpolation needs at least two points, but x has {}",
+                              plural(x.size(), "{} element", "{} elements"));
     for (Index i = 1; i < x.size(); ++i)
         if (!(x[i] > x[i - 1]))
             throw InvalidArgument("x must be increasing, but element {} is not larger than the previous element",

@@ -11,9 +11,7 @@ namespace {
 
 void need_values(Index count, Index minimum) {
     if (count == 0) throw InvalidArgument("{} has no elements", argument_label(1, "v"));
-    if (count < minimum)
-        throw InvalidArgument(
-            "the standard deviation of a single value is undefined; at least two values are required");
+    if (count < minimum) throw InvalidArgument("one value has no spread; at least two values are required");
 }
 
 /// A number for a vector, a vector with one number for each column of a matrix. Every column is summed in the same

@@ -131,9 +131,7 @@ int give_impulse(const Call& call, const Options& options, SpectralModels& read,
     give_figure(call, impulse_estimate_plot(estimate, read.data.Ts, read.models, confidence_option(options)));
     give_table(call, "t", estimate.t, "response", estimate.response, "std", estimate.std, "chance", estimate.null_std,
                "noise_variance", estimate.noise_variance);
-    if (estimate.first)
-        set_field(call, "first", *estimate.first, "dead_time",
-                  static_cast<double>(std::max<Index>(*estimate.first - 1, 0)) * read.data.Ts);
+    if (estimate.first) set_field(call, "first", *estimate.first, "dead_time", *estimate.dead_time);
     set_field(call, "message", localized(call, estimate.message), "warnings", localized(call, estimate.warnings));
     return 2;
 }

@@ -59,7 +59,8 @@ std::string new_name(const Call& call, const Taken& taken) {
         return std::isalnum(c) || c == '_' || c == '-';
     });
     if (!plain) throw InvalidArgument("the name \"{}\" may contain only letters, digits, _ and -", name);
-    if (taken(name)) throw InvalidArgument("the name \"{}\" is already used; every entry needs a different name", name);
+    if (taken(name))
+        throw InvalidArgument("the name \"{}\" is already used by an entry of this kind; choose another name", name);
     return name;
 }
 

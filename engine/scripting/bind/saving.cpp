@@ -104,9 +104,9 @@ Vector list_of_numbers(lua_State* L, int index, const std::string& name) {
     return numbers;
 }
 
-[[noreturn]] void refuse_entry(lua_State* L, const std::string& name) {
+[[noreturn]] void refuse_entry(lua_State* L, const std::string& name, const Message& required) {
     if (lua_isnil(L, -1)) throw InvalidArgument("the table has no entry '{}'", name);
-    throw InvalidArgument("'{}' must be a vector or a list of strings, but it is {}", name, given_value(L, -1));
+    throw InvalidArgument("'{}' must be {}, but it is {}", name, required, given_value(L, -1));
 }
 
 void add_channels(CsvTable& table, const Matrix& channels, const std::vector<std::string>& names,
@@ -152,7 +152,7 @@ CsvTable table_of_columns(const Call& call, int index, const Options& options) {
         } else if (is_list_of(L, -1, LUA_TSTRING)) {
             table.texts[name] = list_of_texts(L, lua_gettop(L));
         } else {
-            refuse_entry(L, name);
+            refuse_entry(L, name, Message("a vector or a list of strings"));
         }
         lua_pop(L, 1);
     }
@@ -220,7 +220,10 @@ Variable variable_on_top(const Call& call, const std::string& name, int depth) {
     if (lua_type(L, -1) == LUA_TNUMBER) return {lua_tonumber(L, -1)};
     if (lua_type(L, -1) == LUA_TSTRING) return {std::string(lua_tostring(L, -1))};
     if (is_table_of_variables(L, lua_gettop(L))) return structure(variables_of(call, lua_gettop(L), depth + 1));
-    if (!is_list_of(L, -1, LUA_TSTRING)) refuse_entry(L, name);
+    if (!is_list_of(L, -1, LUA_TSTRING))
+        refuse_entry(
+            L, name,
+            Message("a number, text, a vector, a matrix, a model, data, a list of strings or a table of these"));
     auto cells = std::make_shared<VariableList>();
     for (const std::string& text : list_of_texts(L, lua_gettop(L))) cells->push_back({text});
     return {cells};

@@ -24,8 +24,9 @@ constexpr std::array kSubspaceOptions = {
 constexpr OptionTable kSubspace[] = {kSubspaceOptions};
 
 constexpr std::array kSubspaceArguments = {
-    ArgumentEntry{"data", ValueKind::kData,
-                  about("regularly sampled data object with any number of inputs, outputs and experiments")},
+    ArgumentEntry{
+        "data", ValueKind::kData,
+        about("regularly sampled data object with at least one input and any number of outputs and experiments")},
     ArgumentEntry{"order", ValueKind::kCount, about("number of states")}};
 
 Estimate estimate_of_subspace(const SubspaceFit& result) {

@@ -118,7 +118,8 @@ int range(Call& call) {
     call.at_most(3);
     const double first = call.number(1, "first"), last = call.number(call.given(3) ? 3 : 2, "last");
     const double step = call.given(3) ? call.number(2, "step") : 1;
-    if (step == 0 || !std::isfinite(step)) throw InvalidArgument("the step must not be zero");
+    if (step == 0 || !std::isfinite(step))
+        throw InvalidArgument("the step must be finite and not zero, but it is {}", step);
     const double count = std::floor((last - first) / step * (1 + 1e-15) + 1e-10) + 1;
     if (!std::isfinite(count)) throw InvalidArgument("first and last must be finite numbers");
     NumericBlock& block = push_vector(call.state(), index_of_whole(std::max(count, 0.0)));

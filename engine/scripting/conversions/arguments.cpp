@@ -133,13 +133,17 @@ void Call::at_most(int arguments) const {
     if (arguments_ <= arguments) return;
     const bool orders = to_vector(state_, 1) == nullptr && lua_isuserdata(state_, 1) && arguments >= 2 &&
                         lua_type(state_, 2) == LUA_TNUMBER && lua_type(state_, 3) == LUA_TNUMBER;
-    const bool named = arguments >= 1 && lua_type(state_, arguments) == LUA_TSTRING;
+    const Message given = plural(arguments_, "{} was given", "{} were given");
+    if (arguments == 0) throw InvalidArgument("accepts no arguments, but {}", given);
     const Message all = plural(arguments, "{} argument", "{} arguments");
     if (orders)
-        throw InvalidArgument("accepts at most {}, but {} were given; write the orders as one table {}", all,
-                              arguments_, "{1, 1, 0}");
-    throw InvalidArgument("accepts at most {}, but {} were given; write the options as one table {}", all, arguments_,
-                          fmt::format("{{{} = value}}", named ? lua_tostring(state_, arguments) : "name"));
+        throw InvalidArgument("accepts at most {}, but {}; write the orders as one table {}", all, given, "{1, 1, 0}");
+    // An option in the form of MATLAB: a name, then its value.
+    for (const int name : {arguments, arguments + 1})
+        if (lua_type(state_, name) == LUA_TSTRING)
+            throw InvalidArgument("accepts at most {}, but {}; write the options as one table {}", all, given,
+                                  fmt::format("{{{} = value}}", lua_tostring(state_, name)));
+    throw InvalidArgument("accepts at most {}, but {}", all, given);
 }
 
 double Call::number(int index, ArgumentName what) const {

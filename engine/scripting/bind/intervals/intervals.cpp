@@ -41,9 +41,9 @@ constexpr OptionTable kBootstrapTables[] = {kBootstrapOptions, kSimulationStart}
                       kProfileTables[] = {kProfileOptions, kSimulationStart};
 
 constexpr ArgumentEntry
-    kEstimateArgument =
-        {"G", ValueKind::kModel,
-         about("model with one input and one output, estimated by `procsrivc`, `tfsrivc`, `srivc`, `coe` or `tfcoe`")},
+    kEstimateArgument = {"G", ValueKind::kModel,
+                         about("model with one input and one output, estimated by `procsrivc`, `tfsrivc`, `tfrivc`, "
+                               "`srivc`, `rivc`, `coe` or `tfcoe`, without `Integration`")},
     kItsDataArgument = {"data", ValueKind::kData, about("data object from which the model was estimated")};
 constexpr std::array kBootstrapArguments = {kEstimateArgument, kItsDataArgument};
 constexpr ArgumentEntry kProfileArguments[] = {
@@ -57,7 +57,9 @@ const Model& output_error_argument(const Call& call, int index) {
     const char* const function = call.function_name();
     if (model == nullptr) wrong_argument(call.state(), index, "G", with_article("model"));
     const Message instead = Message(
-        "{} minimizes the simulation error: estimate the model with procsrivc, tfsrivc, srivc or coe", function);
+        "{} minimizes the simulation error: estimate the model with procsrivc, tfsrivc, srivc or coe, without "
+        "Integration",
+        function);
     if (!model->estimate) throw InvalidArgument("the model was specified, not estimated; {}", instead);
     const Estimate& estimate = *model->estimate;
     if (!model->single_channel())
@@ -66,7 +68,7 @@ const Model& output_error_argument(const Call& call, int index) {
     const bool process = model->process.has_value();
     if (estimate.carx || model->polynomial || model->system || !model->G.continuous() ||
         (!process && !estimate.of_coefficients))
-        throw InvalidArgument("{} is not a suitable method; {}", estimate.method, instead);
+        throw InvalidArgument("this model, estimated by {}, is not suitable; {}", estimate.method, instead);
     return *model;
 }
 

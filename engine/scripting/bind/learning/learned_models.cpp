@@ -62,13 +62,13 @@ constexpr std::array kNarxArguments = {
     kOneOutputData, ArgumentEntry{"orders", ValueKind::kOrders,
                                   about("na past outputs, nb values of the input, and an input delay of nk samples. "
                                         "With several inputs, nb and nk can be tables, such as {2, {1, 2}, {1, 3}}")}};
-constexpr std::array kSindyArguments = {
-    ArgumentEntry{"data", ValueKind::kData,
-                  about("data object with all states (1 to 8) as outputs; any number of inputs and experiments, "
-                        "regularly or irregularly sampled")}};
-constexpr std::array kDmdcArguments = {
-    ArgumentEntry{"data", ValueKind::kData,
-                  about("regularly sampled data object with any number of inputs, outputs and experiments")}};
+constexpr std::array kSindyArguments = {ArgumentEntry{
+    "data", ValueKind::kData,
+    about("data object with all states (1 to 8) as outputs; any number of inputs (or none) and experiments, "
+          "regularly or irregularly sampled")}};
+constexpr std::array kDmdcArguments = {ArgumentEntry{
+    "data", ValueKind::kData,
+    about("regularly sampled data object with at least one input and any number of outputs and experiments")}};
 
 NarxLags lags_argument(const Call& call, Index inputs) {
     const auto orders = order_lists(call, 2, kNarxLags);
