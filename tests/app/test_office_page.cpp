@@ -307,6 +307,10 @@ TEST_F(office_page, only_the_page_itself_may_order_and_only_what_is_on_the_list)
         EXPECT_EQ(reply->status, 400) << command;
         EXPECT_THAT(reply->body, HasSubstr("is not available on this page"));
     }
+    std::string words = R"(["course", "mark")";
+    for (int i = 0; i < 20; ++i) words += R"(, "x")";
+    EXPECT_THAT(page.post("/command", R"({"command": )" + words + R"(], "language": "en"})")->body,
+                HasSubstr("at most 20 words"));
     EXPECT_THAT(course.run({"history"}).output, Not(HasSubstr("points for q3")));
     for (const char* path : {"/exports/..%2Fcourse.key", "/exports/%2e%2e%2fcourse.key", "/exports/.hidden"})
         EXPECT_GE(page.get(path)->status, 400) << path;

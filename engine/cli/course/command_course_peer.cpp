@@ -156,9 +156,12 @@ int give_back(const CourseArguments& where, const ReturnArguments& args) {
                                            "Files for {} groups are in {}", args.out))
               << '\n';
     if (!done.without_mail.empty())
-        std::cerr << terminal_text(
-            fmt::format("dynlab: the email address of {} is unknown; add it in the roster's column mail\n",
-                        fmt::join(done.without_mail, ", ")));
+        std::cerr << "dynlab: "
+                  << terminal_text(
+                         message_text(Message("no email address is known for {}; add the missing addresses to "
+                                              "the column \"mail\" of the roster",
+                                              listed(done.without_mail))))
+                  << '\n';
     if (!done.without_number.empty())
         std::cerr << terminal_text(
             fmt::format("dynlab: not in moodle.zip, because their Moodle numbers are unknown: {}; give Moodle's "

@@ -71,9 +71,12 @@ int give_hint(HintArguments args) {
     if (hints.empty()) throw EnvironmentError("lesson {} has a hint file without hints", lesson.slug);
     if (args.question == 0) return list_hints(lesson, hints, name);
     const auto found = hints.find(args.question);
-    if (found == hints.end())
-        throw EnvironmentError("lesson {} has no hints for question {}; it has hints for questions {} to {}",
-                               lesson.slug, args.question, hints.begin()->first, hints.rbegin()->first);
+    if (found == hints.end()) {
+        std::vector<std::string> known;
+        for (const auto& [question, texts] : hints) known.push_back(std::to_string(question));
+        throw EnvironmentError("lesson {} has no hints for question {}. Questions with hints: {}", lesson.slug,
+                               args.question, listed(known));
+    }
     const std::vector<std::string>& stages = found->second;
     const HintsSeen seen(lesson.slug, args.question);
     if (args.next && !seen.lasting())

@@ -183,11 +183,15 @@ void remove_assignment(Course& course, const Assignment& assignment, const std::
     refuse_without_reason(reason);
     Database& db = course.database();
     Transaction transaction(db);
-    for (const char* table : {"versions", "pairs", "extensions", "marks"})
+    const std::pair<const char*, Message> kDependents[] = {{"versions", Message("submitted files")},
+                                                           {"pairs", Message("review pairs")},
+                                                           {"extensions", Message("extensions")},
+                                                           {"marks", Message("marks")}};
+    for (const auto& [table, what] : kDependents)
         if (db.query(fmt::format("SELECT 1 FROM {} WHERE assignment = ?", table), assignment.id).next())
             throw InvalidArgument(
                 "{} cannot be removed, because other data depend on the assignment (its {}); nothing was changed",
-                assignment.name, table);
+                assignment.name, what);
     for (const char* table : {"criteria", "pair_wishes", "holds", "pseudonyms", "allocations"})
         db.run(fmt::format("DELETE FROM {} WHERE assignment = ?", table), assignment.id);
     db.run("DELETE FROM assignments WHERE id = ?", assignment.id);
