@@ -126,9 +126,9 @@ class Column {
         if (forms.dated) return order_of_day_and_month(forms);
         if (forms.two_fields && stated != "h" && stated != "min")
             return asks(
-                Message("the time column '{}' has two numbers with a colon: hours and minutes, or minutes and seconds. "
-                        "Specify the unit of the first number with load(file, {time_unit = \"h\"}) or \"min\", or with "
-                        "--time-unit h of a command",
+                Message("the cells of the time column '{}' contain two numbers separated by a colon: hours and "
+                        "minutes, or minutes and seconds. Specify the unit of the first number, h or min, for example "
+                        "with load(file, {time_unit = \"h\"}) or with --time-unit h of a command",
                         name_));
         if (forms.two_fields && stated == "min") clock_.t /= 60;
         const std::array ranges = {kSecondsOfDay, kSecondsOfDay / 2};
@@ -159,13 +159,14 @@ class Column {
             const int day = rank(clock_.t), month = rank(swapped);
             if (day == month)
                 return asks(
-                    Message("the dates in '{}' are ambiguous: day first or month first. Specify the order with "
-                            "load(file, {time_unit = \"{}\"}) or \"{}\", or with --time-unit of a command",
+                    Message("the dates in '{}' are ambiguous: the first number can be the day or the month. Specify "
+                            "the order with load(file, {time_unit = \"{}\"}) or load(file, {time_unit = \"{}\"}), or "
+                            "with --time-unit of a command",
                             name_, kDayFirst, kMonthFirst));
             month_first = month > day;
             clock_.notes.push_back(
-                Message("the dates in '{}' are read as {}, because the samples are then closer in time. To change the "
-                        "order, use load(file, {time_unit = \"{}\"}), or --time-unit of a command",
+                Message("the dates in '{}' are read as {}, because the times then increase or are equally spaced. To "
+                        "change the order, use load(file, {time_unit = \"{}\"}), or --time-unit of a command",
                         name_, month_first ? kMonthFirst : kDayFirst, month_first ? kDayFirst : kMonthFirst));
         }
         if (month_first) clock_.t = std::move(swapped);
@@ -288,8 +289,9 @@ ClockSearch find_clock(const LoadedData& data, Index samples, const ImportOption
         const std::string& name = header == data.headers.end() ? options.time : header->second;
         const Vector* values = numbers_of(data, name);
         if (values == nullptr || values->size() < 2)
-            throw EnvironmentError("{}: '{}' is not a numeric column and cannot be the time column", data.file.string(),
-                                   options.time);
+            throw EnvironmentError(
+                "{}: '{}' is not a numeric column with at least two samples, so it cannot be the time column",
+                data.file.string(), options.time);
         return Column(data, name, options, true).settle();
     }
     std::vector<std::string> called, by_unit;

@@ -180,8 +180,8 @@ class CsvReader {
                                          : Message("column {} is named {}", j + 1, table_.names[j]));
         }
         if (reported.items.empty()) return;
-        note(all ? Message("the file has no line of column names, so the columns are named {}; the option {names = "
-                           "{...}} sets their names",
+        note(all ? Message("the file has no header line, so the columns are named {}; the option {names = {...}} sets "
+                           "their names",
                            first_of(reported))
                  : Message("columns without a name in the header: {}", first_of(reported)));
     }

@@ -36,8 +36,9 @@ std::size_t checked_rows(const CsvTable& table) {
         const std::size_t here =
             text != table.texts.end() ? text->second.size() : static_cast<std::size_t>(table.columns[i].size());
         if (i > 0 && here != rows) {
-            throw InvalidArgument("columns of a table must have equal lengths, but {} has {} rows and {} has {}",
-                                  table.names[0], rows, table.names[i], here);
+            throw InvalidArgument(
+                "columns of a table must have equal lengths, but the length of {} is {} and the length of {} is {}",
+                table.names[0], rows, table.names[i], here);
         }
         rows = here;
     }

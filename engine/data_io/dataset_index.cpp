@@ -189,7 +189,8 @@ Source find_graded_source(const std::string& name_or_path, const fs::path& scrip
 
 Message refusal_outside(const std::string& file) {
     return Message(
-        "\"{}\" is outside the folder; a graded script can load only the course's data and files in its own folder",
+        "\"{}\" is outside the folder of the script; a graded script can load only the course's data and files in its "
+        "own folder",
         file);
 }
 

@@ -212,8 +212,10 @@ void write_mat_file(const fs::path& file, const VariableTable& variables, int di
     }
     written = written && Mat_Close(mat.release()) == 0 && complaints.first().empty();
     if (!written || !holds_all(draft, variables.size())) {
-        throw EnvironmentError("cannot write {}: no space for the temporary file in {}", file.string(),
-                               folder.path().parent_path().string());
+        throw EnvironmentError(
+            "cannot write {}: no space for the temporary file in {}. Delete files in this folder, or set TMPDIR to "
+            "another folder",
+            file.string(), folder.path().parent_path().string());
     }
     place_file_atomically(with_quick_compression(draft), file);
 }

@@ -45,7 +45,7 @@ class MatFileSkeleton {
   private:
     [[noreturn]] void fail_cut_off(std::uint64_t start) const {
         throw EnvironmentError(
-            "{} is truncated: variable {} starts at byte {} and does not end within the {} bytes of the file",
+            "{} is truncated: variable number {} starts at byte {} and does not end within the {} bytes of the file",
             file_.string(), variables_ + 1, start, size_);
     }
     [[noreturn]] void fail_without_variable(std::uint64_t at) const {

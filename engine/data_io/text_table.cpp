@@ -64,7 +64,8 @@ class Reader {
         for (const std::string& cell : row) {
             std::string name = in_small_letters(cell);
             if (!known.insert(name).second)
-                throw EnvironmentError("{}, line {}: two columns are named \"{}\"", file_.string(), line, name);
+                throw EnvironmentError("{}, line {}: two columns are named \"{}\"; give each column a different name",
+                                       file_.string(), line, name);
             table.names.push_back(std::move(name));
         }
     }

@@ -197,7 +197,7 @@ TEST_F(workbench_reports, traps_are_shown_and_not_forbidden) {
     EXPECT_FALSE(browser.becomes_true("document.body.innerText.includes('the sum of both')", 0.1));
     ASSERT_TRUE(press(browser, "New model"));
     ASSERT_TRUE(script_has(browser, "G2 = tfsrivc("));
-    EXPECT_TRUE(says(browser, "shifted the input by 3 samples"));
+    EXPECT_TRUE(says(browser, "shifted the input (shift in samples: 3)"));
     EXPECT_FALSE(
         browser.becomes_true("document.body.innerText.includes('minimizes the one-step prediction error')", 0.1));
 }

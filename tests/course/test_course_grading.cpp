@@ -91,7 +91,7 @@ TEST_F(course_grading, marks_above_the_maximum_are_refused_and_marks_are_taken_b
     grade();
     const ChildResult refused = course({"mark", "lab4", "221", "q", "5", "--reason", "slip"});
     EXPECT_EQ(refused.exit_code, 1);
-    EXPECT_THAT(refused.error_output, HasSubstr("5 exceeds the 4 points of \"q\""));
+    EXPECT_THAT(refused.error_output, HasSubstr("5 exceeds 4, the maximum number of points for \"q\""));
     EXPECT_THAT(course({"mark", "lab4", "221", "nosuch", "1", "--reason", "slip"}).error_output,
                 HasSubstr("has no check \"nosuch\""));
     done({"mark", "lab4", "221", "5", "--reason", "shown at the desk"});

@@ -82,7 +82,7 @@ TEST(course_marks, the_instructor_has_the_last_word_and_gives_a_reason) {
     EXPECT_THAT(bench.course({"mark", "crane", "group-04", "reviews", "201", "--force", "--reason", "x"}).error_output,
                 HasSubstr("from 0 to 200 percent, but 201 was given"));
     EXPECT_THAT(bench.course({"mark", "crane", "group-04", "voice", "75", "--reason", "x"}).error_output,
-                HasSubstr("crane has the marks \"work\" and \"reviews\", but \"voice\" was given"));
+                HasSubstr("crane has no mark \"voice\"; the marks are \"work\" and, for a report, \"reviews\""));
     EXPECT_EQ(bench.dump(), before);
     CourseBench::expect_done(bench.course({"mark", "crane", "group-04", "reviews", "70", "--reason", "too hard"}));
     CourseBench::expect_done(
@@ -104,7 +104,7 @@ TEST(course_marks, wrong_scores_are_refused_with_their_line) {
         EXPECT_THAT(result.error_output, HasSubstr(message));
         EXPECT_EQ(bench.dump(), before) << csv;
     };
-    refused("group,data\ngroup-01,3\n", "s.csv, line 1: the column reviewer is missing");
+    refused("group,data\ngroup-01,3\n", "s.csv, line 1: no column is named reviewer");
     refused("reviewer,report,beauty\ngroup-01,report-1,3\n",
             "s.csv, line 1: unknown columns: beauty; the criteria of crane are data, steps, conclusions, strength, "
             "suggestions");
@@ -266,7 +266,7 @@ TEST(course_marks, students_have_points_of_their_own_at_the_oral) {
                 HasSubstr("oral.csv, line 2: s2 is in group-01, not in group-02"));
     EXPECT_THAT(read("student,content\ns1,3\ns33,3\n").error_output,
                 HasSubstr("oral.csv, line 3: unknown student \"s33\"; did you mean s3?"));
-    EXPECT_THAT(read("content\n3\n").error_output, HasSubstr("the column group or student is missing"));
+    EXPECT_THAT(read("content\n3\n").error_output, HasSubstr("no column is named group or student"));
     EXPECT_THAT(read("group,content\ngroup-01,x\n").error_output,
                 HasSubstr("content must be a number from 0 to 5, but \"x\" was given"));
     EXPECT_EQ(bench.dump(), before);

@@ -143,7 +143,7 @@ TEST(course_store, refuses_bad_input_and_stays_untouched) {
              "2026-03-15 12:00"},
             "the deadline of the reviews (Sun 2026-03-08 12:00) must be after the deadline of the first version");
     refused({"assignment", "b", "--first", "2026-03-09"}, "--first must be a time such as");
-    refused({"assignment", "../b", "--first", "2026-03-09 12:00"}, "must be a short word");
+    refused({"assignment", "../b", "--first", "2026-03-09 12:00"}, "must consist of at most 60 letters, digits, hyphens");
     refused({"assignment", "talk", "--kind", "talk", "--first", "2026-03-09 12:00", "--final", "2026-03-12 12:00"},
             "a talk has one deadline");
     refused({"assignment", "crane", "--first", "2026-02-01 12:00", "--review", "2026-03-08 12:00", "--final",

@@ -127,7 +127,7 @@ TEST(gradebook_memory, the_terminal_lists_what_the_summary_lists) {
     const ChildResult graded = bench.grade({"--roster", "roster.csv", "--deadlines", "deadlines.csv"});
     for (const char* sentence :
          {"the script of \"group-1\" stopped: ", "\"group-3\" cannot be read: ",
-          "\"group-2\" was late and loses 0.2 points: ", "group-2 has several submissions. The best submission, "})
+          "\"group-2\" was late; points deducted: 0.2 (", "group-2 has several submissions. The best submission, "})
         EXPECT_THAT(graded.output, HasSubstr(sentence));
     const std::string listed = work.shell("sed -n '/Needs attention/,/^# /p' out/summary.md | grep -c '^- '").output;
     EXPECT_THAT(graded.output, HasSubstr(listed.substr(0, listed.find('\n')) + " notes need attention"));
@@ -229,7 +229,7 @@ TEST(gradebook_memory, unmatched_work_is_reported_and_a_list_assigns_it) {
                "a;1;j@x;group-1\nZo\xEB;Ade;2;;group-2\nBen;Lee;3;;group-3\n");
     const ChildResult graded = bench.grade({"--roster", "roster.csv"});
     EXPECT_EQ(graded.exit_code, 1);
-    EXPECT_THAT(graded.error_output, HasSubstr("roster.csv is not UTF-8; dynlab read it as Latin-1"));
+    EXPECT_THAT(graded.error_output, HasSubstr("roster.csv is not UTF-8; dynlab read it as Windows-1252"));
     EXPECT_THAT(graded.output,
                 AllOf(HasSubstr("\"my work\" matches no student in the roster: the name matches no group"),
                       HasSubstr("\"Ben Lee\" and \"group-2\" are identical byte for byte")));
@@ -270,9 +270,9 @@ TEST(gradebook_memory, deadlines_know_grace_zones_and_more_time) {
     EXPECT_THAT(book, HasSubstr("3,Ben Lee,Ben Lee,graded,2,2,0,0,2,\r\n"));
     EXPECT_THAT(book, HasSubstr("4,Uma Kepler,Uma Kepler,graded,1.8,2,0.2,0.26,2,"));
     EXPECT_THAT(work.read("out/results/group-1/feedback.md"),
-                HasSubstr("and loses 0.2 points: received 2026-03-01 18:20 CET, 20 min after"));
+                HasSubstr("Your submission was late. Points deducted: 0.2 (received 2026-03-01 18:20 CET, 20 min after"));
     EXPECT_THAT(bench.result("group-1").at("output").get<std::string>(),
-                HasSubstr("The submission was late and loses 0.20 points: " + reason));
+                HasSubstr("The submission was late. Points deducted: 0.20 (" + reason + ")."));
     EXPECT_THAT(bench.grade({"--timezone", "Nowhere/Land", "--again"}).error_output, HasSubstr("Nowhere/Land"));
 }
 

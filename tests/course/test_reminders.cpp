@@ -74,7 +74,7 @@ TEST_F(reminders, are_in_the_student_s_language) {
 TEST_F(reminders, the_command_writes_mail_csv) {
     const ChildResult done = bench_.course({"remind", "crane", "--at", "2026-03-01 13:00"});
     EXPECT_EQ(done.exit_code, 1);
-    EXPECT_THAT(done.error_output, HasSubstr("the email address of s1, s2"));
+    EXPECT_THAT(done.error_output, HasSubstr("no email address is known for s1, s2"));
     EXPECT_THAT(bench_.bench().read("mail.csv"), StartsWith("to,subject,text,id,name,group\r\n"));
     EXPECT_THAT(bench_.course({"remind", "--at", "2026-02-01 13:00"}).output, HasSubstr("Nothing is missing."));
 }

@@ -234,7 +234,7 @@ TEST(unfair_submissions, the_instructor_gets_messages_about_slips_and_scripts_wi
         EXPECT_THAT(graded.error_output, HasSubstr(words));
     const std::string summary = work.read("out/summary.md");
     EXPECT_THAT(summary, HasSubstr("stopped: "));
-    EXPECT_THAT(summary, HasSubstr("was late and loses 3 points"));
+    EXPECT_THAT(summary, HasSubstr("was late; points deducted: 3 ("));
     EXPECT_THAT(row_of(bench, "1"), HasSubstr("graded"));
     EXPECT_THAT(row_of(bench, "2"), HasSubstr("graded"));  // the group's
 

@@ -104,7 +104,7 @@ TEST(hints, of_a_copy_are_in_its_language_and_not_in_its_files) {
                 AllOf(HasSubstr("Leçon 03_crane, question 4\n"), HasSubstr("Indice 1 sur 3\n"),
                       HasSubstr(stage.substr(0, 40)), HasSubstr("Encore 2 :  dynlab hint grue 4 --next")));
     EXPECT_THAT(bench.dynlab({"hint", "grue", "4", "--all"}).output,
-                HasSubstr("C'est le dernier indice. Le corrigé :"));
+                HasSubstr("C'est le dernier indice. Pour créer le corrigé, lancez :"));
     EXPECT_THAT(bench.dynlab({"hint", "grue"}).output, HasSubstr("question  4   indices : 3, déjà vus : 3\n"));
     EXPECT_THAT(bench.read("grue/analysis.lua") + bench.read("grue/report.md"), Not(HasSubstr(stage.substr(0, 20))));
 }

@@ -43,7 +43,7 @@ TEST(make_data, writes_tables_as_structs_that_load_gives_back) {
                 "print(pcall(save_mat, 'b.mat', {loop = loop}))\n");
     const ChildResult result = bench.dynlab({"run", "a.lua"});
     EXPECT_EQ(result.output.substr(0, result.output.find('\n')), "3\t3\ttwo\t4\t5") << result.error_output;
-    EXPECT_NE(result.output.find("to at most 16 levels"), std::string::npos) << result.output;
+    EXPECT_NE(result.output.find("nested at most 16 levels"), std::string::npos) << result.output;
 }
 
 }  // namespace test_make_data

@@ -33,8 +33,10 @@ KernelConnection read_connection(const std::filesystem::path& file) {
                 file.string());
         const std::string scheme = reported.value("signature_scheme", "hmac-sha256");
         if (scheme != "hmac-sha256")
-            throw EnvironmentError("{}: the messages are signed with {}, but dynlab supports only hmac-sha256",
-                                   file.string(), scheme);
+            throw EnvironmentError(
+                "{}: the messages are signed with {}, but dynlab supports only hmac-sha256. Remove "
+                "Session.signature_scheme from the configuration of Jupyter",
+                file.string(), scheme);
     } catch (const json::exception&) {
         throw EnvironmentError("{} is not a Jupyter connection file. Jupyter starts the kernel: run jupyter notebook",
                                file.string());

@@ -15,7 +15,7 @@ addWords({
   noAnswer_: tr("no answer"), unreadable_: tr("cannot be read: {}"), sameAs: trPlural("the same text in {} other submission", "the same text in {} other submissions"),
   whole: tr("Show all ({} kB)"), comment: tr("Comment"), commentAbout: tr("Comment for the student"), otherPoints: tr("Other number of points"),
   pointsOf: tr("{} of {}"), noMark: tr("not marked"), changed: tr("was changed elsewhere"), undo: tr("Undo"), showKeys: tr("Press ? to show the keyboard shortcuts"),
-  rubric: tr("Points"), notGradedYet: tr("The lab is not graded yet, so the maximum points of this check are unknown."),
+  rubric: tr("Points"), notGradedYet: tr("The lab is not graded yet, so the maximum number of points for this check is unknown."),
   keyDigits: tr("award these points and go to the next answer"), keyEnter: tr("award all points and go to the next answer"),
   keyMove: tr("go to the next or previous answer"), keyComment: tr("write a comment"), keyLetters: tr("add or remove a comment that was used before"),
   keyPoints: tr("enter another number of points"), keyUndo: tr("undo the last mark entered in this window"), keyWhole: tr("show all of a long answer"),

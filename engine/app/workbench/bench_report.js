@@ -65,12 +65,12 @@ const FIGURES = {
     tr("Measured output and simulated outputs of the models, with the fit of each"),
     tr("measured and simulated outputs")],
   residuals: [({ validation }, models) => `(resid(${partOf(validation, models.at(-1))}, ${models.at(-1)}))`,
-    tr("Autocorrelation of the simulation error, and its correlation with the input; the gray bands are confidence bounds"),
+    tr("Autocorrelation of the simulation residuals, and their cross-correlation with the input; the gray bands show the confidence bounds"),
     tr("the residuals of the model")],
   step: [(_, models) => together("step", models),
     tr("Step response, with its confidence band if known"),
     tr("the response to a unit step")],
-  impulse: [(_, models) => together("impulse", models), tr("Impulse response"), tr("the response to an impulse")],
+  impulse: [(_, models) => together("impulse", models), tr("Impulse response"), tr("the response to a unit impulse")],
   bode: [(_, models) => together("bode", models),
     tr("Frequency response: magnitude above, phase below"), tr("the frequency response")],
   nyquist: [(_, models) => together("nyquist", models),
@@ -109,7 +109,7 @@ const TABLES = {
 export const goesIntoReport = (view) => Object.hasOwn(FIGURES, view) || Object.hasOwn(TABLES, view);
 
 /// Views of one kind come under one heading.
-const SECTIONS = [[tr("Data"), ["record", "second", "spectrum", "correlation"]], [tr("Manual reading"), ["reading"]], [tr("Choice of the structure"), ["orders"]],
+const SECTIONS = [[tr("Data"), ["record", "second", "spectrum", "correlation"]], [tr("Model determined by hand"), ["reading"]], [tr("Choice of the structure"), ["orders"]],
   [tr("Models"), ["parameters", "models"]], [tr("Validation"), ["compare", "residuals"]], [tr("Responses"), ["step", "impulse", "bode", "nyquist", "poles"]],
   [tr("Monte Carlo study"), ["study"]]];
 

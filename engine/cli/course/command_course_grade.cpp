@@ -87,8 +87,9 @@ int set_mark(const CourseArguments& where, const MarkArgs& args) {
         throw InvalidArgument("a mark must be a nonnegative number, but \"{}\" was given", args.mark.back());
     const double max_points = max_points_of(course, a, mark.item).value_or(*mark.points);
     if (*mark.points > max_points && !args.force)
-        throw InvalidArgument("{} exceeds the {} points of \"{}\"; correct the mark, or give --force", *mark.points,
-                              max_points, mark.item);
+        throw InvalidArgument(
+            "{} exceeds {}, the maximum number of points for \"{}\"; correct the mark, or give --force", *mark.points,
+            max_points, mark.item);
     if (!a.is_lab() && *mark.points > kMaxPercent)
         throw InvalidArgument("a mark must be a number from 0 to {} percent, but {} was given", kMaxPercent,
                               *mark.points);

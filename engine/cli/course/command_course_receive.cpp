@@ -127,8 +127,8 @@ fs::path file_not_taken(Course& course, const Assignment& assignment, const std:
         throw found.empty()
             ? InvalidArgument("{}: none of the files that were not accepted has the name \"{}\"", assignment.name, name)
             : InvalidArgument(
-                  "{}: {} files that were not accepted have the name \"{}\"; give the first digits of the SHA-256 hash "
-                  "instead of the name",
+                  "{}: {} files that were not accepted have the name \"{}\"; give at least the first 8 digits of the "
+                  "SHA-256 hash instead of the name",
                   assignment.name, found.size(), name);
     at = found.front().received_at;
     fs::path file = folder / fs::path(found.front().name).filename();

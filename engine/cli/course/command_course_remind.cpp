@@ -48,11 +48,12 @@ int remind(const CourseArguments& where, const RemindArguments& args) {
                      message_text(plural(std::ssize(mails.rows), "{} message in {}", "{} messages in {}", args.out)))
               << '\n';
     if (!without.empty())
-        std::cerr << "dynlab: "
-                  << terminal_text(message_text(Message(
-                         "the email address of {} is unknown; add the address to the column \"mail\" of the roster",
-                         listed(without))))
-                  << '\n';
+        std::cerr
+            << "dynlab: "
+            << terminal_text(message_text(Message(
+                   "no email address is known for {}; add the missing addresses to the column \"mail\" of the roster",
+                   listed(without))))
+            << '\n';
     return without.empty() ? kDone : kFailed;
 }
 

@@ -14,13 +14,18 @@ constexpr double kMaxPointCount = 1000;
 
 /// Those that an instructor's own file can change.
 constexpr std::array kChangedOptions = {
-    OptionEntry{"id", ValueKind::kText, about("name of the check: letters, digits and _")},
-    OptionEntry{"points", ValueKind::kNumber, about("points of the check"), {.initial = "1"}},
-    OptionEntry{"about", ValueKind::kText, about("name of the check shown to students. Default: the id")},
+    OptionEntry{"id", ValueKind::kText, about("id of the check: letters, digits and _")},
+    OptionEntry{"points",
+                ValueKind::kNumber,
+                about("maximum number of points for the check, greater than 0 and at most 1000"),
+                {.initial = "1"}},
+    OptionEntry{"about", ValueKind::kText, about("title of the check for students. Default: the id")},
     OptionEntry{"hint", ValueKind::kText, about("text shown to students who do not get all points of the check")}};
 constexpr std::array kOwnOptions = {
     OptionEntry{"test", ValueKind::kAny, about("function(a, b) that checks the answers")},
-    OptionEntry{"rerun", ValueKind::kText, about("data set or \"seed\" for a rerun of the script")},
+    OptionEntry{
+        "rerun", ValueKind::kText,
+        about("data set on which the script is run again, or \"seed\" to run the script again with another seed")},
     OptionEntry{"document", ValueKind::kFlag, about("whether the check examines the report"), {.initial = "false"}},
     OptionEntry{"mistakes", ValueKind::kAny, about("list of {when = function, say = text}")},
     OptionEntry{"by_hand", ValueKind::kFlag, about("whether the instructor awards the points"), {.initial = "false"}},

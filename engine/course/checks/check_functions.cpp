@@ -89,7 +89,9 @@ bool uses_hidden_data(const Call& call) {
 constexpr std::array kNearOptions = {
     OptionEntry{"rel", ValueKind::kNumber, about("largest relative error of a correct answer"), {.initial = "0.05"}},
     OptionEntry{"abs", ValueKind::kNumber, about("largest absolute error of a correct answer, instead of 'rel'")},
-    OptionEntry{"half", ValueKind::kNumber, about("largest error that earns half the points")}};
+    OptionEntry{"half", ValueKind::kNumber,
+                about("largest error that earns half the points, relative or absolute as the tolerance. Default: the "
+                      "tolerance")}};
 constexpr OptionTable kNear[] = {kNearOptions};
 
 int near(Call& call) {
@@ -108,7 +110,9 @@ int near(Call& call) {
     };
     if (apart <= max_error) return give_result(call, 1, {});
     if (!absolute && compared.comparable() && compared.expected.isZero(0))
-        throw InvalidArgument("a relative tolerance of 0 allows no error: give an absolute tolerance, {abs = ...}");
+        throw InvalidArgument(
+            "the expected value is 0, so a relative tolerance allows no error: give an absolute tolerance, {abs = "
+            "...}");
     if (!std::isfinite(apart))
         return give_result(call, 0, Message("The answer is not a finite number, or has the wrong size."));
     if (uses_hidden_data(call))

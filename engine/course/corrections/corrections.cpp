@@ -74,8 +74,9 @@ class SelectedFiles {
     Found one(const std::string& part, bool withdrawn) const {
         if (const auto found = newest(part, withdrawn)) return *found;
         const std::string version = requested_.number ? fmt::format("{} v{}", part, *requested_.number) : part;
-        throw withdrawn ? InvalidArgument("{} ({}) of {} has not been withdrawn", what(), version, assignment_.name)
-                        : InvalidArgument("{} ({}) does not exist for {}", what(), version, assignment_.name);
+        throw withdrawn
+            ? InvalidArgument("the {} ({}) for {} has not been withdrawn", what(), version, assignment_.name)
+            : InvalidArgument("the {} ({}) for {} does not exist", what(), version, assignment_.name);
     }
 
     Database& db_;

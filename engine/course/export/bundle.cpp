@@ -30,7 +30,7 @@ std::string readme_of(const Lesson& lesson, const BundleOptions& options) {
     const Reader reader{catalog_of(options.language.empty() ? script.header.language : options.language)};
     std::vector<Message> lines = {
         Message::verbatim("# " + script.header.title + "\n"),
-        Message("Install dynlab once with the package that the course provides: sudo apt install ./dynlab_*.deb. Then "
+        Message("Install dynlab once with the package that the course provides (sudo apt install ./dynlab_*.deb). Then "
                 "open a terminal in the folder that contains {}:",
                 lesson.slug),
         Message::verbatim("")};

@@ -324,7 +324,7 @@ class Outbox {
         if (table.rows.empty()) {
             result_.unwritten.push_back(
                 Message("canvas-grades.csv was not written: no student with marks has a Canvas number, neither in the "
-                        "name of a submission nor in the roster's column \"canvas\""));
+                        "name of a submission nor in the roster's column \"canvas\"; give --worksheet FILE"));
             return;
         }
         table.rows.insert(table.rows.begin(), {"    Points Possible", "", "", "", "", possible});

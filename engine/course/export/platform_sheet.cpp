@@ -157,8 +157,8 @@ void PlatformSheet::recognize_moodle() {
         if (holds_participants(i)) number_ = i;
     if (!number_)
         throw EnvironmentError(
-            "{}: expected Moodle's grading worksheet (a column such as \"Identifier\" with \"Participant 12\") or "
-            "Canvas's gradebook (second column ID); the columns are {}",
+            "{}: expected Moodle's grading worksheet (a column such as \"Identifier\" with entries such as "
+            "\"Participant 12\") or Canvas's gradebook (second column \"ID\"); the columns are {}",
             file_.string(), listed_columns());
     const auto maximum = [&] {
         const auto named = first_column(names_, [](const std::string& name) { return has_word(name, kMaximumWords); });

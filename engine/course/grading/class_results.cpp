@@ -304,7 +304,7 @@ Attention what_needs_attention(const ClassResults& results) {
                                 : Message("the script of \"{}\" could not be started: {}", name, grade.error_reason));
             if (!grade.remark.empty()) add(Message("\"{}\": {}", name, grade.remark));
             if (grade.penalty > 0)
-                add(Message("\"{}\" was late and loses {} points: {}", name, points_text(grade.penalty),
+                add(Message("\"{}\" was late; points deducted: {} ({})", name, points_text(grade.penalty),
                             grade.lateness));
         }
         if (entry.item->version == 0) continue;

@@ -45,7 +45,7 @@ class FeedbackText {
             text +=
                 " " + words(Message("Marked as a whole by your instructor: {}", escaped(words(grade_.whole_reason))));
         if (grade_.penalty > 0)
-            text += " " + words(Message("Your submission was late and loses {} points: {}.",
+            text += " " + words(Message("Your submission was late. Points deducted: {} ({}).",
                                         points_number(grade_.penalty), grade_.lateness));
         const std::string other = escape_(grade_.counts_instead);
         if (!other.empty())
@@ -78,9 +78,9 @@ class FeedbackText {
     }
 
     std::string closing() const {
-        return words(Message(
-            "Points are awarded automatically. dynlab compares your answers with your data and with data sets that you "
-            "have not seen. If you think that a check is wrong, contact your instructor and explain why."));
+        return words(
+            Message("Points are awarded automatically. dynlab checks your answers for your data and for data sets that "
+                    "you have not seen. If you think that a check is wrong, contact your instructor and explain why."));
     }
 
   private:

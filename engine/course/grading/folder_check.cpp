@@ -347,7 +347,7 @@ class FolderCheck {
                                           points_number(grade.possible())));
         for (const CheckGrade& check : grade.checks) {
             if (check.by_hand || check.earned >= check.points) continue;
-            const Message score = Message("{} of {} points for \"{}\".", points_number(check.earned),
+            const Message score = Message("Score: {} of {} for \"{}\".", points_number(check.earned),
                                           points_number(check.points), check.about);
             add("check-failed", Severity::kHint, "",
                 message_text(check.message).empty() ? score : sentences({score, check.message}),

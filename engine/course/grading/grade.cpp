@@ -85,7 +85,7 @@ std::string to_results_json(const Grade& grade, const Grade& marked) {
     if (!grade.error_reason.empty()) output.items.push_back(grade.error_reason);
     if (costs)
         output.items.push_back(
-            Message("The submission was late and loses {} points: {}.", decimals(marked.penalty, 2), grade.lateness));
+            Message("The submission was late. Points deducted: {} ({}).", decimals(marked.penalty, 2), grade.lateness));
     if (marked.whole_mark) output.items.push_back(Message("Marked as a whole: {}", marked.whole_reason));
     json j = {{"output", message_text(Message("{}", output))},
               {"stdout_visibility", "hidden"},

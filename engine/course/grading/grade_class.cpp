@@ -229,7 +229,7 @@ FileLock lock_results(const fs::path& out) {
     fs::create_directories(out);
     FileLock lock(out / ".lock");
     if (!lock.held())
-        throw EnvironmentError("another run of dynlab grade uses {}; wait until this run ends", out.string());
+        throw EnvironmentError("another run of dynlab grade uses {}; wait until the other run ends", out.string());
     return lock;
 }
 

@@ -91,8 +91,8 @@ void look_at_solutions(const Lesson& lesson, Faults& faults) {
         if (script.header.title.empty()) faults.add(lesson.script(), 0, Message("the header has no title"));
         if (script.header.lesson != lesson.slug)
             faults.add(lesson.script(), 0,
-                       Message("the header names the lesson \"{}\", but its folder is \"{}\"", script.header.lesson,
-                               lesson.slug));
+                       Message("the header names the lesson \"{}\", but the folder of the lesson is \"{}\"",
+                               script.header.lesson, lesson.slug));
     });
 }
 
@@ -135,7 +135,9 @@ void look_at_attempt(const fs::path& file, const EvaluatedScript& evaluated, Fau
     if (!evaluated.error_reason.empty())
         faults.add(file, line_of_error(evaluated), Message("the run stops: {}", evaluated.error_reason));
     if (intended.empty() && evaluated.name.starts_with("wrong_"))
-        faults.add(file, 0, Message("no line \"-- expects: CHECK: words\" names the check that the script fails"));
+        faults.add(
+            file, 0,
+            Message("no line \"-- expects: CHECK: part of the message\" names the check that the script must fail"));
     for (const Intended& one : intended) {
         const auto check =
             std::find_if(evaluated.checks.begin(), evaluated.checks.end(),
@@ -226,7 +228,7 @@ void look_at_translated_checks(const Lesson& lesson, const std::string& language
             if (catalog.translation(sentence).empty()) missing.push_back(sentence);
         if (!missing.empty())
             faults.add(words, 0,
-                       Message("{} of {} sentences in checks.lua are not translated; the first is \"{}\"",
+                       Message("number of sentences in checks.lua without a translation: {} of {}; the first is \"{}\"",
                                missing.size(), all.size(), missing.front()));
     });
 }

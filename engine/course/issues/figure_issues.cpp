@@ -115,8 +115,8 @@ FigureFindings figure_findings(const DocumentText& text, Severity not_mentioned)
         if (mentions.contains(number)) continue;
         result.findings.push_back({"figure-not-mentioned", not_mentioned, page, "",
                                    Message("The text does not mention figure {}.", number),
-                                   Message("Name the figure with report.figure(\"name\", fig, \"caption\") and "
-                                           "describe @fig:name in the text, or remove the figure.")});
+                                   Message("Name the figure with report.figure(\"name\", fig, \"caption\") and refer "
+                                           "to the figure with @fig:name in the text, or remove the figure.")});
     }
     for (const auto& [number, page] : mentions) {
         if (captions.empty() || captions.contains(number)) continue;

@@ -78,16 +78,16 @@ class Allocator {
     void refuse_impossible() const {
         const int others = static_cast<int>(order_.size()) - 1;
         if (problem_.fixed.empty() && problem_.loose.empty() && problem_.reviews > others)
-            throw order_.size() == 1 ? InvalidArgument(
-                                           "each group should write {} reviews, but only {} group has a report, so the "
-                                           "largest possible number of reviews per group is {}. Wait for more first "
-                                           "versions, or decrease --reviews of the assignment",
-                                           problem_.reviews, order_.size(), std::max(0, others))
-                                     : InvalidArgument(
-                                           "each group should write {} reviews, but only {} groups have a report, so "
-                                           "the largest possible number of reviews per group is {}. Wait for more "
-                                           "first versions, or decrease --reviews of the assignment",
-                                           problem_.reviews, order_.size(), std::max(0, others));
+            throw order_.size() == 1
+                ? InvalidArgument(
+                      "the requested number of reviews per group is {}, but only {} group has a report, so the largest "
+                      "possible number is {}. Wait for more first versions, or decrease --reviews of the assignment",
+                      problem_.reviews, order_.size(), std::max(0, others))
+                : InvalidArgument(
+                      "the requested number of reviews per group is {}, but only {} groups have a report, so the "
+                      "largest possible number is {}. Wait for more first versions, or decrease --reviews of the "
+                      "assignment",
+                      problem_.reviews, order_.size(), std::max(0, others));
     }
 
     void start_with_circle() {
@@ -258,8 +258,9 @@ class Allocator {
     void explain(Allocation& allocation) const {
         const auto say = [&](const Message& sentence) { allocation.remarks.push_back(sentence); };
         if (requested_ < problem_.reviews)
-            say(Message("Only {} groups remain, so each can write at most {} of the {} requested reviews.",
-                        order_.size(), requested_, problem_.reviews));
+            say(Message(
+                "The number of remaining groups is {}, so each group can write at most {} of the {} requested reviews.",
+                order_.size(), requested_, problem_.reviews));
         int few_written = 0, few_got = 0, more = 0;
         for (const int i : order_) {
             few_written += board_.writes(i) < requested_;

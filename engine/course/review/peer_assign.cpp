@@ -86,7 +86,9 @@ class ReviewAssigner {
                     both ? Message("{} should review {}, but the groups share or shared a member, or review pairs "
                                    "--forbid excludes this pair.",
                                    reviewer, author)
-                         : Message("{} should review {}, but one of them has submitted nothing.", reviewer, author));
+                         : Message(
+                               "{} should review {}, but one of the groups has submitted no report or has dropped out.",
+                               reviewer, author));
                 continue;
             }
             std::erase(problem_.loose, edge);

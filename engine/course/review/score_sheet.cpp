@@ -72,7 +72,7 @@ class ScoreReader {
   private:
     void check_columns(const std::vector<std::string>& owners, std::set<std::string> others) const {
         const auto has = [&](const std::string& name) { return table_.column(name).has_value(); };
-        if (std::ranges::none_of(owners, has)) fail(1, Message("the column {} is missing", listed(owners, Join::kOr)));
+        if (std::ranges::none_of(owners, has)) fail(1, Message("no column is named {}", listed(owners, Join::kOr)));
         others.insert(owners.begin(), owners.end());
         std::vector<std::string> criteria, unknown;
         bool any = false;

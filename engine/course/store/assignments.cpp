@@ -17,7 +17,8 @@ void refuse_odd_name(const std::string& what, const std::string& name) {
                          std::string::npos;
     if (odd)
         throw InvalidArgument(
-            "{} \"{}\" must be a short word of letters, digits, hyphens, underscores and periods, such as crane-report",
+            "{} \"{}\" must consist of at most 60 letters, digits, hyphens, underscores and periods, and must not "
+            "start with a hyphen or a period; an example is crane-report",
             what, name);
 }
 
@@ -230,7 +231,7 @@ Assignment assignment_named(Course& course, const std::string& name) {
         if (::strcasecmp(assignment.name.c_str(), name.c_str()) == 0) return assignment;
         names.push_back(assignment.name);
     }
-    if (name.empty()) throw InvalidArgument("give an assignment: {}", listed(names));
+    if (name.empty()) throw InvalidArgument("specify an assignment; the assignments are {}", listed(names));
     const auto near = nearest_word(name, names);
     const MessageList known = listed(names);
     if (names.size() == 1)
@@ -261,7 +262,8 @@ std::vector<Criterion> criteria_of(const std::string& text) {
         const std::optional<double> given = points.empty() ? 5.0 : read_number<double>(points);
         if (!given || !(*given > 0 && *given <= 1000))
             throw InvalidArgument(
-                "the points of the criterion {} must be a number from 0 to 1000, but \"{}\" was given", name, points);
+                "the points of the criterion {} must be a number greater than 0 and at most 1000, but \"{}\" was given",
+                name, points);
         const double max_points = *given;
         if (!seen.insert(name).second) throw InvalidArgument("the criterion {} occurs twice", name);
         criteria.push_back({name, max_points});

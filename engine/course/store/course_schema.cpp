@@ -286,7 +286,8 @@ bool migrate_course(Database& database, Database::Opening opening, const std::st
         const std::int64_t version = pragma(database, "user_version"), id = pragma(database, "application_id");
         const bool fresh = opening == Database::Opening::kNew && version == 0;
         if (!fresh && id != kApplicationId)
-            throw EnvironmentError("{}: the folder is not a course; create a course with dynlab course init", file);
+            throw EnvironmentError(
+                "{}: the file is not the database of a course; create a course with dynlab course init", file);
         if (version > newest)
             throw EnvironmentError(
                 "{}: a newer version of dynlab created this course (its tables have version {}, but this program "

@@ -61,8 +61,8 @@ fs::path course_folder(const fs::path& start) {
         if (folder == folder.root_path()) break;
     }
     throw EnvironmentError(
-        "no course was found in {} or above. Change to the folder of the course, specify the folder with --course DIR, "
-        "or create a course with dynlab course init DIR",
+        "no course was found in {} or its parent folders. Change to the folder of the course, specify the folder with "
+        "--course DIR, or create a course with dynlab course init DIR",
         from.string());
 }
 

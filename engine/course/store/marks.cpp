@@ -192,7 +192,8 @@ std::optional<double> max_points_of(Course& course, const Assignment& assignment
     if (!assignment.is_lab()) {
         if (item == kReviewsItem) refuse_without_reviews(assignment);
         if (item == kReviewsItem || item == kWholeItem) return 100;
-        throw InvalidArgument("{} has the marks \"work\" and \"reviews\", but \"{}\" was given", assignment.name, item);
+        throw InvalidArgument("{} has no mark \"{}\"; the marks are \"work\" and, for a report, \"reviews\"",
+                              assignment.name, item);
     }
     const std::vector<CheckPoints> checks = newest_checks(course, assignment);
     if (checks.empty()) return {};

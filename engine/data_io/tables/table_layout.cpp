@@ -287,7 +287,10 @@ double score_of(const std::filesystem::path& file, const TableSample& sample) {
             scanner.next_cell();
         } while (!scanner.row_ended());
     }
-    throw EnvironmentError("{}: the table has no header line with the names of the columns", file.string());
+    throw EnvironmentError(
+        "{}: the file contains no table; expected a header line with the names of the columns, followed by rows of "
+        "numbers",
+        file.string());
 }
 
 }  // namespace

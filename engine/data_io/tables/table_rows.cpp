@@ -67,7 +67,7 @@ class RowReader {
             return true;
         }
         if (cells == 1 && ends_before(scanner)) return false;
-        throw EnvironmentError("{}, line {}: expected {} as in the header line, got {}", file_.string(), scanner.line(),
+        throw EnvironmentError("{}, line {}: expected {} as in the lines above, got {}", file_.string(), scanner.line(),
                                plural(std::ssize(columns_), "{} cell", "{} cells"), cells);
     }
 

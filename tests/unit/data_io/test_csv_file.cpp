@@ -91,8 +91,8 @@ TEST_F(csv_file, names_line_and_column_of_what_is_wrong) {
     EXPECT_EQ(complaint("t,y\n0,1\n-inf,1\n"), ", line 3, column t: expected a finite number, got \"-inf\"" + remedy);
     EXPECT_EQ(complaint("t\n1e999\n"),
               ", line 2, column t: expected a number within the range of double precision, got \"1e999\"");
-    EXPECT_EQ(complaint("t,y\n0,1\n1\n"), ", line 3: expected 2 cells as in the header line, got 1");
-    EXPECT_EQ(complaint("t,y\n0,1\n0,1,2\n1,2\n"), ", line 3: expected 2 cells as in the header line, got 3");
+    EXPECT_EQ(complaint("t,y\n0,1\n1\n"), ", line 3: expected 2 cells as in the lines above, got 1");
+    EXPECT_EQ(complaint("t,y\n0,1\n0,1,2\n1,2\n"), ", line 3: expected 2 cells as in the lines above, got 3");
     EXPECT_EQ(
         complaint("t,y\n0,1,2\n"),
         ", line 1: the line has 2 names, but the rows below it have 3 cells; if the line is not part of the table, use "
@@ -120,14 +120,14 @@ TEST_F(csv_file, error_has_the_file_and_the_line_as_arguments) {
         read_csv_file(file_);
         FAIL() << "the last row is too short";
     } catch (const EnvironmentError& error) {
-        EXPECT_EQ(error.message(), Message("{}, line {}: expected {} as in the header line, got {}", file_.string(), 3,
+        EXPECT_EQ(error.message(), Message("{}, line {}: expected {} as in the lines above, got {}", file_.string(), 3,
                                            plural(2, "{} cell", "{} cells"), 1));
     }
 }
 
 TEST_F(csv_file, names_what_is_wrong_above_the_rows) {
-    EXPECT_EQ(complaint(""), ": the table has no header line with the names of the columns");
-    EXPECT_EQ(complaint("# only: remarks\n"), ": the table has no header line with the names of the columns");
+    EXPECT_EQ(complaint(""), ": the file contains no table; expected a header line with the names of the columns, followed by rows of numbers");
+    EXPECT_EQ(complaint("# only: remarks\n"), ": the file contains no table; expected a header line with the names of the columns, followed by rows of numbers");
     EXPECT_EQ(complaint("t,y\n\n"), ": the table has no rows below the header line");
     EXPECT_EQ(complaint("\n# Ts: fast\nt\n1\n"),
               ", line 2: the sampling time Ts must be a positive number of seconds, but \"fast\" was given");
@@ -224,7 +224,7 @@ TEST_F(csv_file, gives_names_where_there_are_none) {
     const CsvTable bare = read("0 1\n1 2\n");
     EXPECT_EQ(shown_table(bare), "c1|c2\n0|1\n1|2");
     EXPECT_THAT(texts_of(bare.notes),
-                ElementsAre(HasSubstr("the file has no line of column names, so the columns are named c1, c2")));
+                ElementsAre(HasSubstr("the file has no header line, so the columns are named c1, c2")));
 }
 
 TEST_F(csv_file, finds_units) {
