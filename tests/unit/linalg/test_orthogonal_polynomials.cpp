@@ -47,8 +47,9 @@ TEST(orthogonal_polynomials, of_two_points_are_as_by_hand) {
 
 TEST(orthogonal_polynomials, need_enough_points) {
     const ComplexVector s = axis_points(1, 2, 2);
-    EXPECT_THAT(thrown_message([&] { orthogonal_polynomials(s, Vector::Ones(2), 4); }),
-                HasSubstr("2 frequencies cannot distinguish a polynomial of degree 4 from lower degrees"));
+    EXPECT_THAT(
+        thrown_message([&] { orthogonal_polynomials(s, Vector::Ones(2), 4); }),
+        HasSubstr("2 frequencies cannot distinguish a polynomial of degree 4 from polynomials of lower degree"));
     EXPECT_THAT(thrown_message([&] { orthogonal_polynomials(s, Vector::Ones(3), 1); }), HasSubstr("one weight"));
 }
 
