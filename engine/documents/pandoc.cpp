@@ -221,8 +221,8 @@ PandocResult run_pandoc(const PandocJob& job, Complaints& complaints) {
     ChildResult run = finished_pandoc(job);
     if (run.timed_out)
         throw DocumentError(Place{job.template_file},
-                            Message("Pandoc did not finish this document within {} s of processor time, or within ten "
-                                    "times as many seconds of elapsed time; shorten the document",
+                            Message("Pandoc did not finish this document within {} s of processor time, or ten times "
+                                    "this limit in elapsed time; shorten the document",
                                     kMaxTime.count()));
     if (run.output_exceeded)
         throw DocumentError(Place{job.template_file},

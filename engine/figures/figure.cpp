@@ -50,9 +50,10 @@ void check_curve(const Curve& curve, const Panel& panel, const Message& name_of_
     const Message samples = plural(curve.x.size(), "{} sample", "{} samples");
     if (panel.log_x || panel.log_y)
         throw InvalidArgument(
-            "panel {}, curve {} cannot be drawn: none of its {} is finite and positive on the logarithmic axis",
+            "panel {}, curve {} cannot be drawn: it has {}, but none is finite and positive on the logarithmic axis",
             name_of_panel, name, samples);
-    throw InvalidArgument("panel {}, curve {} cannot be drawn: none of its {} is finite", name_of_panel, name, samples);
+    throw InvalidArgument("panel {}, curve {} cannot be drawn: it has {}, but none is finite", name_of_panel, name,
+                          samples);
 }
 
 void check_tick_step(const std::optional<double>& step, const char* axis, const Message& panel) {

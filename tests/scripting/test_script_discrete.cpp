@@ -59,10 +59,10 @@ TEST(script_discrete, orders_are_explained) {
         refusal("arx(data, {2, 1})"),
         "lesson.lua:5: arx: argument 2 (orders) must be {na, nb, nk} (na: poles; nb: coefficients of B; nk: samples "
         "of input delay, 1 for systems without direct feedthrough), but it has 2 entries");
-    EXPECT_THAT(refusal("oe(data, {2, 2, 0.5})"), HasSubstr("nk is 0.5; it must be a nonnegative integer"));
+    EXPECT_THAT(refusal("oe(data, {2, 2, 0.5})"), HasSubstr("nk is 0.5; it must be an integer from 0 to 1000000"));
     EXPECT_THAT(refusal("sriv(data, {2, -2, 1})"), HasSubstr("nf is -2"));
     EXPECT_THAT(refusal("oe(data, {2, 'x', 1})"), HasSubstr("nf is the string \"x\""));
-    EXPECT_THAT(refusal("oe(data, {2, {1, 'x'}, 1})"), HasSubstr("nf has the string \"x\""));
+    EXPECT_THAT(refusal("oe(data, {2, {1, 'x'}, 1})"), HasSubstr("nf contains the string \"x\""));
     EXPECT_THAT(refusal("oe(data)"), HasSubstr("it is missing"));
     EXPECT_THAT(refusal("arx(data, {{1, 2}, 1, 1})"), HasSubstr("na, the number of poles, must be one value"));
     EXPECT_THAT(refusal("oe(data, {0, 2, 1})"), HasSubstr("nb, the number of coefficients of B, must be between 1"));

@@ -257,6 +257,16 @@ TEST(script_errors, name_argument_wanted_and_given) {
         {"sqrt(-2)", "lesson.lua:1: sqrt: the function is undefined for the negative number -2"},
         {"norm({1}, {2})", "lesson.lua:1: norm: accepts at most 1 argument, but 2 were given"},
         {"toc(1)", "lesson.lua:1: toc: accepts no arguments, but 1 was given"},
+        {"lqr(matrix{{0, 0/0}, {0, 0}}, matrix{{0}, {1}}, eye(2), eye(1))",
+         "lesson.lua:1: lqr: A contains a value that is not finite"},
+        {"lqr(matrix{{0, 1}}, matrix{{0}, {1}}, eye(2), eye(1))",
+         "lesson.lua:1: lqr: A must be a 1 x 1 matrix, but is 1 x 2"},
+        {"place(matrix{{0, 1}, {0, 0}}, matrix{{0}, {1}}, {-1, -math.huge})",
+         "lesson.lua:1: place: all poles must be finite"},
+        {"fillmissing({1, 0/0, 0/0, 4}, {method = 'previous', longest = 1})",
+         "lesson.lua:1: fillmissing: samples 2 to 3 are missing, a gap of more than 1 sample. To fill the gap, specify "
+         "{longest "
+         "= 2}"},
         {"histogram({1, 2}, 'bins', 3)",
          "lesson.lua:1: histogram: accepts at most 2 arguments, but 3 were given; write the options as one table {bins "
          "= "
@@ -282,7 +292,8 @@ TEST(script_errors, count_one_in_the_singular) {
          "lesson.lua:2: srivc: argument 2 (orders) must be {nb, nf, nk} (nb: coefficients of B; nf: poles; nk: samples "
          "of delay), but it has 1 entry"},
         {data_set + "merge(d, iddata({1, 2}, matrix{{1, 2}, {2, 1}}, 1))",
-         "lesson.lua:2: merge: part 2 has 1 output and 2 inputs, but the first has 1 and 1"},
+         "lesson.lua:2: merge: part 2 has 1 output and 2 inputs, but the first part has 1 and 1. Select the same "
+         "channels in both parts with data:select"},
     });
 }
 

@@ -131,7 +131,7 @@ TEST(script_grey_box, refuses_in_words) {  // oracle: the mistakes written here
                 HasSubstr("x has no state q; the states are y, v"));
     EXPECT_THAT(refusal("idgrey(f, {a1 = {1, mn = 0}}, {states = 2})"), HasSubstr("'mn' is not valid"));
     EXPECT_THAT(refusal("idgrey(f, {a1 = {3, max = 2}, a2 = 1, b = 1}, {states = 2})"),
-                HasSubstr("a1 has the initial value 3, which is outside the bounds -Inf and 2"));
+                HasSubstr("initial value of the parameter a1 is 3, which is outside the bounds -Inf and 2"));
     EXPECT_THAT(refusal("idgrey(function(t, x, u, p) return {p.a1*x[1] + u}, {x[1]} end, {a1 = 1}, {states = 1})"),
                 HasSubstr("must return only the derivatives, in one table"));
     EXPECT_THAT(refusal("idgrey(f, names, {states = 2, outputs = function(t, x, u, p) return x[1], x[2] end})"),

@@ -32,7 +32,7 @@ TEST(script_loops, the_reference_goes_with_the_data) {
     EXPECT_THAT(error_of(kLoop + "iddata(data.y, data.u, Ts, {Reference = r:range(1, 9)})"),
                 HasSubstr("635 samples but the reference has 9"));
     EXPECT_THAT(error_of(kLoop + "data:merge(iddata(data.y, data.u, Ts))"),
-                HasSubstr("0 references, but the first has 1"));
+                HasSubstr("0 references, but the number of references in the first part is 1"));
     EXPECT_THAT(error_of(kLoop + "print(iddata(data.y, data.u, Ts).r)"), HasSubstr("have no reference"));
 }
 

@@ -66,7 +66,7 @@ TEST(script_preprocess, misuse_is_reported_with_the_remedy) {
     EXPECT_THAT(refused("detrend(y, 'start')"), HasSubstr("specify the number of samples"));
     EXPECT_THAT(refused("resample(d, 1, 0)"), HasSubstr("between 1 and 1000"));
     EXPECT_THAT(refused("merge(d, d:resample(1, 2))"),
-                AllOf(HasSubstr("has the sampling time 0.2 s, but the first has 0.1 s"), HasSubstr("resample")));
+                AllOf(HasSubstr("has a sampling time of 0.2 s, but the first part has 0.1 s"), HasSubstr("resample")));
 }
 
 }  // namespace test_script_preprocess

@@ -28,7 +28,7 @@ TEST(script_vectors, measure_matrices_by_columns) {
               "3\t2.5\t2\t5\t0\n");
     EXPECT_EQ(error_of("median{}"), "lesson.lua:1: median: argument 1 (v) has no elements");
     EXPECT_EQ(error_of("std(matrix{{1, 2}})"),
-              "lesson.lua:1: std: one value has no spread; at least two values are required");
+              "lesson.lua:1: std: a standard deviation or a variance needs at least two values, but only one was given");
 }
 
 TEST(script_vectors, round_and_take_logarithms) {

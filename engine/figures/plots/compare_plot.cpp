@@ -15,8 +15,8 @@ void check_model_output(const ModelOutput& model, const Matrix& measured) {
         model.fit_percent.size() == measured.cols())
         return;
     throw InvalidArgument(
-        "the output of model \"{}\" must be {} x {} with {} fit values, as for the data, but it is {} x {} with {} fit "
-        "values",
+        "the output of model \"{}\" must be {} x {} (number of fit values: {}), as for the data, but it is {} x {} "
+        "(number of fit values: {})",
         model.name, measured.rows(), measured.cols(), measured.cols(), model.y.rows(), model.y.cols(),
         model.fit_percent.size());
 }
@@ -60,7 +60,8 @@ void keep_to_the_others(Panel& panel) {
 
 Figure compare_plot(const IdData& data, const std::vector<ModelOutput>& models, std::size_t experiment) {
     if (experiment >= data.experiments.size())
-        throw InvalidArgument("unknown experiment {}; the data have {}", experiment + 1, data.experiments.size());
+        throw InvalidArgument("unknown experiment {}; the number of experiments in the data is {}", experiment + 1,
+                              data.experiments.size());
     const Matrix& measured = data.experiments[experiment].y;
     for (const ModelOutput& model : models) check_model_output(model, measured);
     const Vector t = data.time(experiment);

@@ -10,9 +10,9 @@ namespace dynlab::inline numerics {
 namespace {
 
 void require_size(const char* name, const MatrixView& M, Index rows, Index columns) {
-    if (M.rows() == rows && M.cols() == columns && M.allFinite()) return;
-    throw InvalidArgument("{} must be a matrix of {} x {} finite numbers, not {} x {}", name, rows, columns, M.rows(),
-                          M.cols());
+    if (M.rows() != rows || M.cols() != columns)
+        throw InvalidArgument("{} must be a {} x {} matrix, but is {} x {}", name, rows, columns, M.rows(), M.cols());
+    if (!M.allFinite()) throw InvalidArgument("{} contains a value that is not finite", name);
 }
 
 void require_system(const MatrixView& A, const MatrixView& B) {
@@ -71,7 +71,7 @@ StateFeedback linear_quadratic_regulator(const MatrixView& A, const MatrixView& 
     require_symmetric("Q", Q);
     require_symmetric("R", R);
     const auto cheapest = solve_by_cholesky(R, B.transpose());  // R^-1 B'
-    if (!cheapest) throw InvalidArgument("R must be positive definite: every input needs a cost");
+    if (!cheapest) throw InvalidArgument("R must be positive definite: every input needs a positive weight");
     if (symmetric_eigenvalues(Q).minCoeff() < -1e-10 * Q.norm())
         throw InvalidArgument("Q must be positive semidefinite");
 
@@ -99,9 +99,10 @@ StateFeedback pole_placement(const MatrixView& A, const MatrixView& B, const Com
     const Index n = A.rows();
     if (B.cols() != 1)
         throw InvalidArgument("pole placement needs a system with one input, but B has {} columns", B.cols());
-    if (poles.size() != n || !poles.allFinite())
-        throw InvalidArgument("the system has {}, so the same number of finite poles is required, not {}",
+    if (poles.size() != n)
+        throw InvalidArgument("the system has {}, so the number of poles must be the same, but is {}",
                               plural(n, "{} state", "{} states"), poles.size());
+    if (!poles.allFinite()) throw InvalidArgument("all poles must be finite");
     const Vector c = monic_coefficients(poles);
 
     constexpr double kSingular = 1e-15;  // reciprocal of a condition number that leaves no digit

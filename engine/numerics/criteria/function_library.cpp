@@ -32,8 +32,10 @@ Matrix library_values(const FunctionLibrary& library, const Matrix& X, const Mat
             if (std::isfinite(values(k, j))) continue;
             MessageList at;
             for (Index i = 0; i < X.cols(); ++i) at.items.push_back(Message("{}", X(k, i)));
-            throw InvalidArgument("sindy: the library function {} returned {} at sample {}, for the states {}",
-                                  library.names[static_cast<std::size_t>(j)], values(k, j), k + 1, at);
+            throw InvalidArgument(
+                "sindy: the library function {} returned {} at sample {} (state values: {}). Use functions that are "
+                "finite at all samples",
+                library.names[static_cast<std::size_t>(j)], values(k, j), k + 1, at);
         }
     return values;
 }

@@ -123,7 +123,7 @@ RegressedResponse impulseest(const IdData& data, const ImpulseestOptions& option
     const Index n = lags_or_default("impulseest", options.lags, shortest);
     const ResponseSums sums = sums_of(data_set, n);
     if (!(sums.gram.diagonal().maxCoeff() > 0) || !(sums.energy > 0))
-        throw InvalidArgument("impulseest: the input is constant after {}; use fewer lags",
+        throw InvalidArgument("impulseest: the input or the output is constant after the first {}; use fewer lags",
                               plural(n, "{} sample", "{} samples"));
     RegressedResponse estimate;
     estimate.t = Vector::LinSpaced(n + 1, 0, static_cast<double>(n)) * data.Ts;

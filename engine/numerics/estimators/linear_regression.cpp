@@ -112,7 +112,7 @@ PolynomialFit fit_polynomial(const VectorView& x, const VectorView& y, int degre
 
 Forecast forecast(const LinearRegression& regression, const VectorView& phi, double level) {
     if (phi.size() != regression.theta.size())
-        throw InvalidArgument("The forecast needs {}, but {} were given",
+        throw InvalidArgument("The forecast needs {}, but the number of specified regressors is {}",
                               plural(regression.theta.size(), "{} regressor", "{} regressors"), phi.size());
     if (!(level > 0 && level < 1))
         throw InvalidArgument("The confidence level must be between 0 and 1, but {} was given; 0.95 means 95 %", level);

@@ -180,7 +180,7 @@ const std::vector<MethodEntry>& method_catalog() {
         {"learning/narx",
          {"narx"},
          "polynomial difference equation by forward orthogonal selection",
-         marked("estimator", "y(k) = p(y(k-1).., u(k-nk)..) + e, p a polynomial"),
+         marked("estimator", "y(k) = p(y(k-1), ..., u(k-nk), ...) + e with a polynomial p"),
          TimeDomain::kDiscrete,
          marked("estimator", "white in the equation"),
          "Chen, Billings and Luo (1989); Billings (2013), chapter 3"},

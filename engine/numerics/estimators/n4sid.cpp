@@ -271,8 +271,9 @@ SubspaceFit n4sid(const IdData& data, int order, const SubspaceOptions& options)
 
     const InputEquations equations(scaled, sizes, A, C, options.feedthrough);
     if (data.sample_count() * sizes.ny <= equations.unknowns())
-        throw InvalidArgument("n4sid estimates {} and needs more samples than that, but the data have {}",
-                              plural(equations.unknowns(), "{} value", "{} values"), data.sample_count());
+        throw InvalidArgument(
+            "n4sid estimates {} and needs more samples than that, but the data have {}. Use more data or a lower order",
+            plural(equations.unknowns(), "{} value", "{} values"), data.sample_count());
     const LeastSquares solution = equations.solve();
     SubspaceFit found;
     found.system = equations.system(solution.solution);

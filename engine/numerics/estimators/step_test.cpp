@@ -115,7 +115,7 @@ StepTestResult step_second_order(const IdData& data) {
     if (D1 >= 1)
         throw InvalidArgument(
             "The first overshoot is at least as large as the change of the output, which is impossible for a damped "
-            "second-order system");
+            "second-order system. Check the data for a disturbance or a drift");
     const double z = std::sqrt(logarithm * logarithm / (logarithm * logarithm + pi * pi));
     const double w0 = pi / ((peak.time - step_data.step_time) * std::sqrt(1 - z * z));
     const double K = result.parameters[0];

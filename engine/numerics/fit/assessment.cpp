@@ -280,7 +280,9 @@ Assessment assess_prediction(const IdData& data, const Fit& fit, const ResidualO
     Matrix sensitivities;
     model.simulate(theta, output, &sensitivities);
     if (!output.allFinite() || !sensitivities.allFinite())
-        throw InvalidArgument("The output of the estimate diverges, so its errors cannot be assessed");
+        throw InvalidArgument(
+            "The simulation of the model diverges, so the errors of the estimate cannot be assessed. Check the data "
+            "and the structure");
     Matrix Psi = sensitivities.leftCols(d);
     const Matrix linear = sensitivities.rightCols(linear_unknowns);
     for (Index i = 0; i < d && linear_unknowns > 0; ++i) Psi.col(i) = solve_least_squares(linear, Psi.col(i)).residuals;

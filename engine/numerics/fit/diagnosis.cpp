@@ -104,8 +104,8 @@ void check_sampled_data(const std::string& method, const IdData& data) {
 
 void check_sample_count(const std::string& method, Index samples, Index values) {
     if (samples > values) return;
-    throw InvalidArgument("{} estimates {} and needs more samples than that, but the data have {}", method,
-                          plural(values, "{} value", "{} values"), samples);
+    throw InvalidArgument("{} estimates {} and needs more samples than that, but the data have {}. Use more data",
+                          method, plural(values, "{} value", "{} values"), samples);
 }
 
 void check_transient(const std::string& method, const IdData& data, const Fit& fit, Index values) {
@@ -145,7 +145,7 @@ void warn_of_cancellation(Fit& fit) {
             for (const Complex& pole : poles)
                 if (std::abs(zero - pole) < kCancellation * std::abs(pole)) {
                     fit.warnings.push_back(
-                        Message("A pole with the real part {} and a zero nearly cancel: fewer poles and zeros may be "
+                        Message("A pole with a real part of {} and a zero nearly cancel: fewer poles and zeros may be "
                                 "sufficient.",
                                 significant(pole.real(), 3)));
                     return;
@@ -341,8 +341,10 @@ void warn_of_doubtful_parameters(Fit& fit, SimplerModel simpler) {
                !fit.covariance.hasNaN() && fit.covariance.allFinite();
     });
     if (!names.empty())
-        fit.warnings.push_back(Message(
-            "The data do not reliably determine {}: the standard error is larger than the value.", listed(names)));
+        fit.warnings.push_back(
+            Message("The data do not reliably determine {}: a parameter with a standard error larger than its "
+                    "magnitude may be zero.",
+                    listed(names)));
 }
 
 void warn_of_delay(Fit& fit, double delay, const DelayRange& range, const std::optional<ChannelPlace>& channel) {

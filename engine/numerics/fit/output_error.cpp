@@ -215,7 +215,7 @@ Search search_for(const OutputErrorModel& model, const VectorView& y, const Vect
     options.validate();
     const Index count = model.parameter_count();
     if (start.size() != count)
-        throw InvalidArgument("The search needs {} initial values, but {} were given", count, start.size());
+        throw InvalidArgument("The number of initial values must be {}, but is {}", count, start.size());
     if (y.size() <= count)
         throw InvalidArgument("The number of samples, {}, must be greater than the number of parameters, {}", y.size(),
                               count);

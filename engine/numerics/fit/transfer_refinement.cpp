@@ -375,7 +375,7 @@ Fit refine_output_error(const IdData& data, const TransferStructure& structure, 
                         const Vector& theta_start, const FitOptions& options, double masked_seconds) {
     check_transfer_data("Output error", data, structure, condition.offset ? Offset::kEstimate : options.offset);
     if (theta_start.size() != structure.parameter_count())
-        throw InvalidArgument("The search needs {} initial values, but {} were given", structure.parameter_count(),
+        throw InvalidArgument("The number of initial values must be {}, but is {}", structure.parameter_count(),
                               theta_start.size());
     const Index values = value_count(structure, condition, static_cast<Index>(data.experiments.size()));
     check_sample_count("Output error", data.sample_count() * structure.outputs, values);

@@ -7,8 +7,10 @@ namespace dynlab::inline numerics {
 OrthogonalPolynomials orthogonal_polynomials(const ComplexVector& s, const VectorView& weights, Index degree) {
     constexpr double kDependent = 1e-12;  // of what is left of s p_j
     if (weights.size() != s.size())
-        throw InvalidArgument("orthogonal polynomials need one weight for each of the {} points, but {} were given",
-                              s.size(), weights.size());
+        throw InvalidArgument(
+            "orthogonal polynomials need one weight for each point, but the number of points is {} and the number of "
+            "weights is {}",
+            s.size(), weights.size());
     OrthogonalPolynomials basis{Eigen::MatrixXcd(s.size(), degree + 1), Matrix::Zero(degree + 1, degree + 1)};
     const Vector squares = weights.cwiseAbs2();
     const auto product = [&](const ComplexVector& a, const ComplexVector& b) {

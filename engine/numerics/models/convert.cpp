@@ -69,14 +69,14 @@ bool has_root(const Vector& p, double x) {
 }
 
 [[noreturn]] void report_pole_without_image(double Ts) {
-    throw InvalidArgument("c2d: the tustin method is undefined for a pole at 2/Ts = {} rad/s; choose another Ts",
+    throw InvalidArgument("c2d: the Tustin method is undefined for a pole at 2/Ts = {} rad/s; choose another Ts",
                           2 / Ts);
 }
 
 TransferFunction tustin_c2d(const TransferFunction& G, double Ts) {
     if (split_delay(G.delay(), Ts).rest > 0)
         throw InvalidArgument(
-            "c2d: the tustin method needs a delay that is a multiple of Ts = {} s, but it is {} s; zoh and foh support "
+            "c2d: the Tustin method needs a delay that is a multiple of Ts = {} s, but it is {} s; zoh and foh support "
             "any delay",
             Ts, G.delay());
     const Vector top = 2 / Ts * Eigen::Vector2d(1, -1), bottom = Eigen::Vector2d(1, 1);
@@ -124,7 +124,7 @@ TransferFunction exact_d2c(const TransferFunction& G, Hold hold) {
 
 TransferFunction tustin_d2c(const TransferFunction& G) {
     const Vector top = Eigen::Vector2d(1, 2), bottom = Eigen::Vector2d(-1, 2);  // z, with time in samples
-    if (has_root(G.den(), -1)) throw InvalidArgument("d2c: the tustin method is undefined for a pole at z = -1");
+    if (has_root(G.den(), -1)) throw InvalidArgument("d2c: the Tustin method is undefined for a pole at z = -1");
     const Vector den = substitute(G.den(), top, bottom, G.pole_count());
     const Vector num = without_rounding(substitute(G.num(), top, bottom, G.pole_count()));
     return TransferFunction(in_seconds(num, G.Ts()), in_seconds(den, G.Ts()), 0, G.delay());

@@ -28,7 +28,7 @@ void GreyModel::validate() const {
                 "The parameter {} has the bounds {} and {}, but the lower bound must not exceed the upper bound",
                 p.name, p.lower, p.upper);
         if (p.start < p.lower || p.start > p.upper)
-            throw InvalidArgument("The parameter {} has the initial value {}, which is outside the bounds {} and {}",
+            throw InvalidArgument("The initial value of the parameter {} is {}, which is outside the bounds {} and {}",
                                   p.name, p.start, p.lower, p.upper);
     }
     if (state_names.empty()) throw InvalidArgument("The model needs at least one state");

@@ -42,8 +42,8 @@ Index lags_or_default(const std::string& caller, Index lags, Index shortest) {
                               caller, lags);
     if (lags == 0) lags = std::max<Index>(1, std::min(kDefaultLags, shortest / 5));
     if (kSamplesPerLag * lags > shortest)
-        throw InvalidArgument("{}: {} need at least {} samples, but the shortest experiment has {}", caller,
-                              plural(lags, "{} lag", "{} lags"), kSamplesPerLag * lags, shortest);
+        throw InvalidArgument("{}: {} need at least {} samples, but the shortest experiment has {}. Use fewer lags",
+                              caller, plural(lags, "{} lag", "{} lags"), kSamplesPerLag * lags, shortest);
     return lags;
 }
 

@@ -137,7 +137,7 @@ PolynomialModel::PolynomialModel(const PolynomialOrders& orders, const VectorVie
         throw InvalidArgument("polynomial model: the sampling time must be a positive number of seconds, but it is {}",
                               Ts);
     if (theta.size() != orders.parameter_count())
-        throw InvalidArgument("The polynomial model has {}, but {} were given",
+        throw InvalidArgument("The polynomial model has {}, but the number of specified values is {}",
                               plural(orders.parameter_count(), "{} parameter", "{} parameters"), theta.size());
     A = monic(theta.head(orders.na));
     C = monic(theta.segment(orders.c_start(), orders.nc));

@@ -40,10 +40,14 @@ void check_same_units(const std::vector<std::string>& first, const std::vector<s
     for (std::size_t i = 0; i < std::min(first.size(), units.size()); ++i) {
         if (first[i].empty() || units[i].empty() || first[i] == units[i]) continue;
         if (kind == Channels::kInputs)
-            throw InvalidArgument("merge: part {} has the input {} in {}, but the first part has this input in {}",
-                                  part, i + 1, units[i], first[i]);
-        throw InvalidArgument("merge: part {} has the output {} in {}, but the first part has this output in {}", part,
-                              i + 1, units[i], first[i]);
+            throw InvalidArgument(
+                "merge: in part {}, the unit of input {} is {}, but in the first part it is {}. Convert the input to "
+                "the same unit",
+                part, i + 1, units[i], first[i]);
+        throw InvalidArgument(
+            "merge: in part {}, the unit of output {} is {}, but in the first part it is {}. Convert the output to the "
+            "same unit",
+            part, i + 1, units[i], first[i]);
     }
 }
 
@@ -157,8 +161,10 @@ IdData IdData::range(Index first, Index last) const {
     const Experiment& experiment = only_experiment(*this, "range");
     const Index count = experiment.y.rows();
     if (first < 1 || last > count || first > last)
-        throw InvalidArgument("range: samples {} to {} were requested, but the data have samples 1 to {}", first, last,
-                              count);
+        throw InvalidArgument(
+            "range: {} to {} is not a valid range; the data have samples 1 to {}. The first sample must not be after "
+            "the last sample",
+            first, last, count);
     IdData part = *this;
     part.experiments.front() = cut(*this, experiment, first - 1, last - first + 1);
     return part;
@@ -212,7 +218,7 @@ IdData IdData::shifted(Index samples) const {
     for (Experiment& experiment : result.experiments) {
         const Index lost = std::abs(samples), kept = experiment.y.rows() - lost;
         if (kept < 1)
-            throw InvalidArgument("shift: a shift by {} would remove all samples, because the data have only {}",
+            throw InvalidArgument("shift: a shift by {} would remove all samples, because an experiment has only {}",
                                   plural(samples, "{} sample", "{} samples"),
                                   plural(experiment.y.rows(), "{} sample", "{} samples"));
         const Matrix u = experiment.u.middleRows(samples >= 0 ? 0 : lost, kept);
@@ -228,31 +234,35 @@ IdData IdData::merge(const std::vector<IdData>& parts) {
     for (std::size_t i = 1; i < parts.size(); ++i) {
         const IdData& part = parts[i];
         if (part.output_count() != merged.output_count() || part.input_count() != merged.input_count())
-            throw InvalidArgument("merge: part {} has {} and {}, but the first has {} and {}", i + 1,
-                                  plural(part.output_count(), "{} output", "{} outputs"),
-                                  plural(part.input_count(), "{} input", "{} inputs"), merged.output_count(),
-                                  merged.input_count());
+            throw InvalidArgument(
+                "merge: part {} has {} and {}, but the first part has {} and {}. Select the same channels in both "
+                "parts with data:select",
+                i + 1, plural(part.output_count(), "{} output", "{} outputs"),
+                plural(part.input_count(), "{} input", "{} inputs"), merged.output_count(), merged.input_count());
         if (part.reference_count() != merged.reference_count())
-            throw InvalidArgument("merge: part {} has {}, but the first has {}", i + 1,
-                                  plural(part.reference_count(), "{} reference", "{} references"),
-                                  merged.reference_count());
+            throw InvalidArgument(
+                "merge: part {} has {}, but the number of references in the first part is {}. Add the reference to all "
+                "parts or to none",
+                i + 1, plural(part.reference_count(), "{} reference", "{} references"), merged.reference_count());
         if (part.Ts != merged.Ts)
             throw InvalidArgument(
-                "merge: part {} has the sampling time {} {}, but the first has {} {}: convert both to the same "
+                "merge: part {} has a sampling time of {} {}, but the first part has {} {}: convert both to the same "
                 "sampling time with resample or interp1",
                 i + 1, part.Ts, part.time_unit, merged.Ts, merged.time_unit);
         if (part.time_unit != merged.time_unit)
-            throw InvalidArgument("merge: part {} has the time unit {}, but the first has {}", i + 1, part.time_unit,
-                                  merged.time_unit);
+            throw InvalidArgument(
+                "merge: part {} has the time unit {}, but the first part has {}. Convert the time of one part, and "
+                "specify the same TimeUnit",
+                i + 1, part.time_unit, merged.time_unit);
         if (part.hold == Hold::kZoh && merged.hold != Hold::kZoh)
             throw InvalidArgument(
                 "merge: the input of part {} has a zero-order hold (zoh), but the input of the first part is linearly "
-                "interpolated (foh)",
+                "interpolated (foh). Specify the same InterSample for both parts",
                 i + 1);
         if (part.hold != Hold::kZoh && merged.hold == Hold::kZoh)
             throw InvalidArgument(
                 "merge: the input of part {} is linearly interpolated (foh), but the input of the first part has a "
-                "zero-order hold (zoh)",
+                "zero-order hold (zoh). Specify the same InterSample for both parts",
                 i + 1);
         check_same_units(merged.input_units, part.input_units, Channels::kInputs, i + 1);
         check_same_units(merged.output_units, part.output_units, Channels::kOutputs, i + 1);

@@ -8,7 +8,9 @@ namespace dynlab::inline numerics {
 namespace {
 
 void check_points(const VectorView& x, const VectorView& y) {
-    if (x.size() != y.size()) throw InvalidArgument("x has {} values, but y has {}", x.size(), y.size());
+    if (x.size() != y.size())
+        throw InvalidArgument("x and y must have the same length, but the length of x is {} and the length of y is {}",
+                              x.size(), y.size());
     if (x.size() < 2)
         throw InvalidArgument("interpolation needs at least two points, but x has {}",
                               plural(x.size(), "{} element", "{} elements"));

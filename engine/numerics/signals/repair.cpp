@@ -97,15 +97,21 @@ RepairedSignal fill_missing(const VectorView& x, const VectorView& t, std::optio
     RepairedSignal result = bridged(x, t, good, method);
     constexpr Index kMaxLineLength = 10;
     const Index max_length = max_gap.value_or(method == FillMethod::kLinear ? kMaxLineLength : x.size());
-    for (const auto& [first, last] : result.stretches)
-        if (last - first + 1 > max_length)
+    for (const auto& [first, last] : result.stretches) {
+        if (last - first + 1 <= max_length) continue;
+        if (method != FillMethod::kLinear)
             throw InvalidArgument(
-                "fillmissing: samples {} to {} are missing, a gap of more than {}. For an input that is logged when it "
-                "changes, use {method = \"previous\"}. For an output, use the parts before and after the gap as two "
-                "experiments. Alternatively, pass only the measured samples to iddata, with their times as {}. The "
-                "option {longest = {}} allows linear interpolation across the gap",
-                first, last, plural(max_length, "{} sample", "{} samples"), OptionName{"sampling_instants"},
-                last - first + 1);
+                "fillmissing: samples {} to {} are missing, a gap of more than {}. To fill the gap, specify {longest = "
+                "{}}",
+                first, last, plural(max_length, "{} sample", "{} samples"), last - first + 1);
+        throw InvalidArgument(
+            "fillmissing: samples {} to {} are missing, a gap of more than {}. For an input that is logged when it "
+            "changes, use {method = \"previous\"}. For an output, use the parts before and after the gap as two "
+            "experiments. Alternatively, pass only the measured samples to iddata, with their times as {}. The "
+            "option {longest = {}} allows linear interpolation across the gap",
+            first, last, plural(max_length, "{} sample", "{} samples"), OptionName{"sampling_instants"},
+            last - first + 1);
+    }
     return result;
 }
 

@@ -36,7 +36,7 @@ double windowed_sinc(double t) {
 
 void check_factor(const char* name, Index factor) {
     if (factor < 1 || factor > kMaxFactor)
-        throw InvalidArgument("resample: the factor {} must be between 1 and {}, but it is {}", name, kMaxFactor,
+        throw InvalidArgument("resample: the factor '{}' must be between 1 and {}, but it is {}", name, kMaxFactor,
                               factor);
 }
 

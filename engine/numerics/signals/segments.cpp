@@ -17,8 +17,10 @@ void check_segments(const std::string& caller, const IdData& data, const std::ve
     const Index count = data.sample_count();
     for (const Segment& segment : segments)
         if (segment.first < 1 || segment.last > count || segment.first > segment.last)
-            throw InvalidArgument("{}: samples {} to {} do not exist; the data have samples 1 to {}", caller,
-                                  segment.first, segment.last, count);
+            throw InvalidArgument(
+                "{}: {} to {} is not a valid range; the data have samples 1 to {}. The first sample must not be after "
+                "the last sample",
+                caller, segment.first, segment.last, count);
 }
 
 /// A sample in two segments would count twice.

@@ -101,8 +101,8 @@ void read_levels(StepData& step_data) {
                                                                1.0 / static_cast<double>(tail));
     if (std::abs(step_data.output_change()) > 5 * uncertainty && step_data.output_change() != 0) return;
     throw InvalidArgument(
-        "The output does not respond to the step: it changes from {} to {}, and the noise has a standard deviation of "
-        "{}. Check the columns, or use a larger step",
+        "The output does not respond to the step by more than the noise: it changes from {} to {}, and the noise has a "
+        "standard deviation of {}. Check the columns, or use a larger step",
         significant(step_data.initial.value, 6), significant(step_data.final.value, 6),
         significant(step_data.noise_std, 6));
 }

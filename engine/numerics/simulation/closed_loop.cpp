@@ -27,8 +27,8 @@ void check_proper(const TransferFunction& plant, const TransferFunction& control
                               plural(plant.pole_count(), "{} pole", "{} poles"));
     if (!controller.proper())
         throw InvalidArgument(
-            "closed loop: the controller has {} but only {}; it needs at least as many poles (the derivative term of a "
-            "PID controller needs a filter)",
+            "closed loop: the controller has {} but only {}; it needs at least as many poles as zeros (the derivative "
+            "term of a PID controller needs a filter)",
             plural(controller.zero_count(), "{} zero", "{} zeros"),
             plural(controller.pole_count(), "{} pole", "{} poles"));
 }

@@ -50,7 +50,8 @@ Vector ColoredNoise::draw(Index count, double sigma, RandomStream& random) const
 double noise_std_of_snr(const VectorView& x, double snr) {
     if (!std::isfinite(snr)) throw InvalidArgument("snr must be a finite number in dB, but {} was given", snr);
     const double scale = std::sqrt((x.array() - x.mean()).square().sum() / static_cast<double>(x.size()));
-    if (!std::isfinite(scale)) throw InvalidArgument("snr needs a noise-free output that is finite");
+    if (!std::isfinite(scale))
+        throw InvalidArgument("snr needs a noise-free output that is finite; use a stable model");
     if (scale == 0)
         throw InvalidArgument("snr needs a noise-free output that changes; use an input that excites the system");
     return scale * std::pow(10.0, -snr / 20);

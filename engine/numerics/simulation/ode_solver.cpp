@@ -73,7 +73,10 @@ bool OdeSolver::advance(double& t, OdeState& x, double t_end, const OdeGuard& gu
         if (error > 1) {
             next_step_ = h * factor;
             if (t + next_step_ / 4 == t)
-                throw InvalidArgument("the integrator found no step small enough for its tolerance at t = {}", t);
+                throw InvalidArgument(
+                    "the integrator found no step small enough for its tolerance at t = {}. Check whether the "
+                    "equations are discontinuous or the solution grows without bound",
+                    t);
             continue;
         }
         if (guard && guard(t + h, trial.x).minCoeff() < 0) {

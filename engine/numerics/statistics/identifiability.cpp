@@ -46,8 +46,8 @@ Ambiguity find_ambiguity(const MatrixView& J, const std::vector<std::string>& na
     }
     if (!idle.empty())
         found.sentences.push_back(
-            Message("The outputs of these data do not depend on {}: fix these parameters, or excite the system so that "
-                    "they have an effect.",
+            Message("The outputs of these data do not depend on {}. Fix every such parameter, or excite the system so "
+                    "that the parameter has an effect.",
                     listed(idle)));
     if (active.size() < 2) return found;
     Matrix scaled = J(Eigen::all, active);

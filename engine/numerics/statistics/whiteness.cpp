@@ -21,10 +21,13 @@ Message white_message(ModelError kind, const Message& probability, Index lags) {
 Message colored_message(ModelError kind, const Message& probability, Index outside, Index lags, double confidence) {
     const Number percent = significant(100 * confidence, 4);
     if (kind == ModelError::kPrediction)
-        return Message("The prediction error is not white (Ljung-Box {}; {} of {} lags exceed the {} % bound).",
-                       probability, outside, lags, percent);
-    return Message("The output error is not white (Ljung-Box {}; {} of {} lags exceed the {} % bound).", probability,
-                   outside, lags, percent);
+        return Message(
+            "The prediction error is not white (Ljung-Box {}; at {} of {} lags, the autocorrelation exceeds the {} % "
+            "bound).",
+            probability, outside, lags, percent);
+    return Message(
+        "The output error is not white (Ljung-Box {}; at {} of {} lags, the autocorrelation exceeds the {} % bound).",
+        probability, outside, lags, percent);
 }
 
 // The variance of the lag's sample autocorrelation of a white signal, times N + 2 over N (Ljung and Box 1978).

@@ -21,8 +21,9 @@ std::string range_text(std::pair<int, int> range) {
 
 void check_range(const char* name, std::pair<int, int> range, int least) {
     if (range.first < least || range.second < range.first)
-        throw InvalidArgument("{} must be a number or a range {from, to} starting at {} or higher, but it is {}", name,
-                              least, range_text(range));
+        throw InvalidArgument(
+            "{} must be a number or a range {from, to} with from <= to, starting at {} or higher, but it is {}", name,
+            least, range_text(range));
 }
 
 void check_ranges(const ArxRanges& ranges) {

@@ -225,8 +225,9 @@ CompareResult compare_centered(const ComparedData& data_set, Channels channels, 
         return (condition.state == InitialState::kEstimate ? order : 0) + (condition.offset ? 1 : 0);
     };
     if (const Index d = values(conditions.front()); d > 0 && N <= d)
-        throw InvalidArgument("compare estimates {} and needs more samples than that, but the data have {}",
-                              plural(d, "{} value", "{} values"), N);
+        throw InvalidArgument(
+            "compare estimates {} and needs more samples than that, but the data have {}. Use more data",
+            plural(d, "{} value", "{} values"), N);
     StartSearch search = start_search(data_set, channels, conditions);
     StartCandidate best = candidate(search, conditions.front());
     for (std::size_t i = 1; i < conditions.size(); ++i) {

@@ -20,7 +20,7 @@ constexpr Index kProfiledSamples = 50'000;  // of longer data, their beginning
 void check_options(const DelaySearchOptions& options) {
     const FitOptions& estimation = options.estimation;
     if (estimation.largest_delay && !(*estimation.largest_delay > estimation.least_delay))
-        throw InvalidArgument("{} must be greater than {} ({} s), but {} was given: the range contains no delay",
+        throw InvalidArgument("{} must be greater than {} ({} s), but {} s was given: the range contains no delay",
                               OptionName{"largest_delay"}, OptionName{"least_delay"}, estimation.least_delay,
                               *estimation.largest_delay);
 }

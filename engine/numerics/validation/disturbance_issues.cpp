@@ -107,14 +107,13 @@ void find_error_outliers(FittedData& fit, const std::function<bool()>& cancel, D
     const auto count = static_cast<Index>(repaired->replaced.size());
     const Vector outliers = fit.error - repaired->signal;
     fit.take_off(outliers);
-    DataIssue issue =
-        about(fit, "outliers", Weight::kWarning,
-              Message("The output {} has {} far from the neighboring samples ({}), up to {} from the values that the "
-                      "input explains. Check whether these samples are valid. If they are not, replace them by linear "
-                      "interpolation with filloutliers.",
-                      fit.output(), plural(count, "{} sample", "{} samples"), listed_places(repaired->stretches),
-                      fit.with_unit(outliers.cwiseAbs().maxCoeff(), 2)),
-              static_cast<double>(count));
+    DataIssue issue = about(
+        fit, "outliers", Weight::kWarning,
+        Message("The output {} has {} far from the neighboring samples ({}), up to {} from the values that the input "
+                "explains. Check for invalid samples, and replace them by linear interpolation with filloutliers.",
+                fit.output(), plural(count, "{} sample", "{} samples"), listed_places(repaired->stretches),
+                fit.with_unit(outliers.cwiseAbs().maxCoeff(), 2)),
+        static_cast<double>(count));
     issue.sections = repaired->stretches;
     findings.push_back(std::move(issue));
 }

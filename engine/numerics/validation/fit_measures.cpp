@@ -12,7 +12,7 @@ namespace {
 void require_pair(const VectorView& y, const VectorView& y_sim) {
     if (y.size() != y_sim.size())
         throw InvalidArgument(
-            "The simulated output must have the same length as the measured output, but has {} samples instead of {}",
+            "The simulated output must have the same length as the measured output, but has {} instead of {}",
             plural(y_sim.size(), "{} value", "{} values"), y.size());
     if (y.size() < 2)
         throw InvalidArgument(plural(y.size(), "A fit needs at least two samples, but {} was given",

@@ -82,8 +82,8 @@ Message model_quality_message(const ModelEvidence& model) {
         return Message(
             "The model explains everything that depends on the input (fit {} %). The standard deviation of the "
             "residuals is more than half the standard deviation of the output. Possible causes are another input, a "
-            "nonlinearity, or a colored disturbance; for the latter, use robust standard errors or a method with a "
-            "noise model.",
+            "nonlinearity, or a colored disturbance. For a colored disturbance, use robust standard errors or a method "
+            "with a noise model.",
             fit);
     return Message(
         "The model describes the dynamics. The disturbance is colored: use robust standard errors or a method with a "

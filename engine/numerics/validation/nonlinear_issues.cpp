@@ -238,8 +238,8 @@ DataIssue curve_at_output(const FittedData& fit, double effect) {
     if (runs_into_a_limit(slopes_of_curve(fit))) {
         return about(fit, "saturation", Weight::kWarning,
                      Message("{} flattens while a linear model continues to rise: the signal saturates at a limit that "
-                             "is hidden by the noise ({} % of its movement is missing). Exclude these ranges with "
-                             "data:discard, or repeat the experiment with a smaller amplitude.",
+                             "is hidden by the noise ({} % of its movement is missing). Exclude the saturated samples "
+                             "with data:discard, or repeat the experiment with a smaller amplitude.",
                              fit.output(), in_percent(effect)),
                      effect);
     }

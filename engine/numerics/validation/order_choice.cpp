@@ -68,7 +68,8 @@ MessageList faults_of(const OrderCandidate& candidate) {
         faults.items.push_back(candidate.integrator ? Message("a zero that cancels a pole or the integrator")
                                                     : Message("a zero that cancels a pole"));
     if (!candidate.undetermined.empty())
-        faults.items.push_back(Message("standard errors larger than the values of {}", listed(candidate.undetermined)));
+        faults.items.push_back(
+            Message("a standard error larger than the value for {}", listed(candidate.undetermined)));
     if (!candidate.converged) faults.items.push_back(Message("an estimation that did not converge"));
     return faults;
 }

@@ -213,9 +213,11 @@ std::vector<const Fit*> poorer_fits(const std::vector<TransferStructure>& struct
 std::vector<TransferStructure> order_grid(std::pair<int, int> poles, std::pair<int, int> zeros,
                                           const std::vector<double>& delays, bool free_delay, bool feedthrough) {
     if (poles.first < 1 || poles.second < poles.first)
-        throw InvalidArgument("option 'poles' must be a range starting at 1 or higher, such as {1, 4}");
+        throw InvalidArgument(
+            "option 'poles' must be a range {from, to} with 1 <= from <= to, such as {1, 4}, or one number");
     if (zeros.first < 0 || zeros.second < zeros.first)
-        throw InvalidArgument("option 'zeros' must be a range starting at 0 or higher, such as {0, 2}");
+        throw InvalidArgument(
+            "option 'zeros' must be a range {from, to} with 0 <= from <= to, such as {0, 2}, or one number");
     if (delays.empty()) throw InvalidArgument("at least one delay must be given; use 0 for no delay");
     const double requested =
         (1.0 + poles.second - poles.first) * (1.0 + zeros.second - zeros.first) * static_cast<double>(delays.size());

@@ -130,8 +130,8 @@ StartedPrediction best_start(const IdData& data, const OrderedParameters& model,
     }
     if (candidates.empty())
         throw InvalidArgument(
-            "The data have too few samples for a prediction: the model needs {} before the first predicted sample, and "
-            "more samples than estimated values",
+            "The data have too few samples for a prediction: the number of past samples before the first predicted "
+            "sample is {}. The prediction also needs more samples than estimated values. Use more data",
             model.orders.past());
     std::vector<Index> common = candidates.front().lengths;
     for (const StartedPrediction& candidate : candidates)

@@ -155,7 +155,7 @@ void find_saturation(const Channel& channel, const Quantization& grid, std::vect
                           who, percent, listed_places(runs), limit)
                     : Message(
                           "{} saturates for {} % of the data (samples {}): it reaches {} abruptly and stays at this "
-                          "value. A linear model cannot represent saturation. Exclude these ranges with data:discard, "
+                          "value. A linear model cannot represent saturation. Exclude these samples with data:discard, "
                           "or repeat the experiment with a smaller amplitude.",
                           who, percent, listed_places(runs), limit);
     DataIssue issue = about(channel, "saturation", Weight::kWarning, message, share);
@@ -168,10 +168,11 @@ void find_quantization(const Channel& channel, const Quantization& grid, std::ve
     if (!channel.output || grid.step == 0 || range / grid.step >= kCoarse) return;
     findings.push_back(about(
         channel, "quantization", Weight::kWarning,
-        Message("{} is quantized in steps of {}, with only {} steps over its range. The effect is similar to noise "
-                "with a standard deviation of {}; use a converter with a higher resolution, or a larger amplitude.",
-                subject(channel), value_of(channel, grid.step, 3), std::round(range / grid.step),
-                value_of(channel, grid.step / std::sqrt(12.0), 2)),
+        Message(
+            "{} is quantized in steps of {}; the number of steps over its range is only {}. The effect is similar to "
+            "noise with a standard deviation of {}. Use a converter with a higher resolution, or a larger amplitude.",
+            subject(channel), value_of(channel, grid.step, 3), std::round(range / grid.step),
+            value_of(channel, grid.step / std::sqrt(12.0), 2)),
         grid.step));
 }
 
@@ -210,8 +211,8 @@ void find_outliers(const Channel& channel, const Quantization& grid, std::vector
     if (count == 0 || static_cast<double>(count) > 0.05 * static_cast<double>(channel.x.size())) return;
     DataIssue issue =
         about(channel, "outliers", Weight::kWarning,
-              Message("{} has {} far from the neighboring samples ({}). Check whether these samples are valid. If they "
-                      "are not, replace them by linear interpolation with filloutliers.",
+              Message("{} has {} far from the neighboring samples ({}). Check for invalid samples, and replace them by "
+                      "linear interpolation with filloutliers.",
                       subject(channel), plural(count, "{} sample", "{} samples"), listed_places(repaired.stretches)),
               static_cast<double>(count));
     issue.sections = repaired.stretches;

@@ -44,8 +44,9 @@ SimulationSpread simulation_spread(const ModelsOfParameters& models, const Vecto
             covariance.rows(), covariance.cols());
     const std::vector<TransferFunction> own = models(theta);
     if (u.cols() != static_cast<Index>(own.size()))
-        throw InvalidArgument(plural(static_cast<Index>(own.size()), "The model has {} input, but {} were given",
-                                     "The model has {} inputs, but {} were given", u.cols()));
+        throw InvalidArgument(plural(static_cast<Index>(own.size()),
+                                     "The model has {} input, but the number of specified inputs is {}",
+                                     "The model has {} inputs, but the number of specified inputs is {}", u.cols()));
     const Matrix root = root_of_covariance(covariance);
     SimulationSpread spread{simulated_sum(own, u, Ts, hold), {}, Matrix(N, runs), 0};
     for (Index run = 0; run < runs; ++run) {

@@ -47,8 +47,10 @@ FilesByPlace merged_files(const fs::path& course, const fs::path& installed) {
     std::uintmax_t bytes = 0;
     for (const auto& [place, file] : own) bytes += fs::file_size(file);
     if (bytes > kMaxByteCount)
-        throw EnvironmentError("the lessons, data and templates of the course in {} are larger than 256 MB",
-                               course.string());
+        throw EnvironmentError(
+            "the lessons, data and templates of the course in {} are larger than 256 MB; remove large files from these "
+            "folders",
+            course.string());
     for (const auto& [place, file] : own) files[place] = file;
     return files;
 }

@@ -138,7 +138,7 @@ class AnswerWriter {
             write_value(json_, *system);
             return "model";
         }
-        throw InvalidArgument("{} cannot be an answer; an answer can be a {}", given_value(L, index),
+        throw InvalidArgument("{} cannot be an answer; the kinds of answers are {}", given_value(L, index),
                               listed(answer_kinds()));
     }
 

@@ -14,8 +14,8 @@ constexpr double kLargestOrder = 1e6;
 
 int checked_order(double value, int index, std::span<const OrderEntry> entries, const char* name) {
     if (std::floor(value) != value || value < 0 || value > kLargestOrder)
-        throw InvalidArgument("argument {} (orders) must be {}, but {} is {}; it must be a nonnegative integer", index,
-                              meaning_of(entries), name, significant(value, 10));
+        throw InvalidArgument("argument {} (orders) must be {}, but {} is {}; it must be an integer from 0 to 1000000",
+                              index, meaning_of(entries), name, significant(value, 10));
     return static_cast<int>(value);
 }
 
@@ -37,8 +37,8 @@ std::vector<int> entry_list(lua_State* L, int index, std::span<const OrderEntry>
     for (lua_Integer i = 1; i <= count; ++i) {
         lua_rawgeti(L, -1, i);
         if (lua_type(L, -1) != LUA_TNUMBER)
-            throw InvalidArgument("argument {} (orders) must be {}, but {} has {}", index, meaning_of(entries), name,
-                                  given_value(L, lua_gettop(L)));
+            throw InvalidArgument("argument {} (orders) must be {}, but {} contains {}", index, meaning_of(entries),
+                                  name, given_value(L, lua_gettop(L)));
         list.push_back(checked_order(lua_tonumber(L, -1), index, entries, name));
         lua_pop(L, 1);
     }

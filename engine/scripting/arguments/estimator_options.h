@@ -44,9 +44,9 @@ inline constexpr std::array kStartOptions = {
               "(\"auto\"). If you specify only one of InitialState and Offset, the other remains \"auto\""),
         {.initial = "\"auto\"", .choices = kOffsets, .member = "offset"})};
 
-inline constexpr OptionEntry kTolerance =
-    option<&FitOptions::tolerance>("Tol", about("relative change of the parameters below which the search stops"),
-                                   {.initial = "1e-6", .member = "tolerance"});
+inline constexpr OptionEntry kTolerance = option<&FitOptions::tolerance>(
+    "Tol", about("the search stops when the relative change of the parameters is below this value"),
+    {.initial = "1e-6", .member = "tolerance"});
 inline constexpr std::array kIterationOptions = {
     option<&FitOptions::max_iterations>("MaxIter",
                                         about("maximum number of iterations. By default, a search that has not "

@@ -29,7 +29,8 @@ std::string kind_of(const std::vector<ExpectedAnswer>& expected, const std::stri
 }
 
 AnswerValue checked_answer(const Call& call, const std::string& name) {
-    if (!call.given(2)) wrong_argument(call.state(), 2, "value", Message("an answer's value"));
+    if (!call.given(2))
+        wrong_argument(call.state(), 2, "value", Message("the value of the answer, such as 2.5 or {1, 2}"));
     const Recorder& recorder = call.context().recorder;
     if (call.type(2) == LUA_TTABLE && kind_of(recorder.expected_answers(), name) == "vector") call.vector(2, "value");
     AnswerValue value = answer_value(call.state(), 2);

@@ -11,7 +11,8 @@ namespace {
 
 void need_values(Index count, Index minimum) {
     if (count == 0) throw InvalidArgument("{} has no elements", argument_label(1, "v"));
-    if (count < minimum) throw InvalidArgument("one value has no spread; at least two values are required");
+    if (count < minimum)
+        throw InvalidArgument("a standard deviation or a variance needs at least two values, but only one was given");
 }
 
 /// A number for a vector, a vector with one number for each column of a matrix. Every column is summed in the same

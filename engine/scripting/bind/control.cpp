@@ -18,17 +18,18 @@ constexpr OptionEntry kCraneOptions[] = {
     {"seed", ValueKind::kCount, about("seed of the sensor noise"), {.initial = "1", .maximum = kMaxSeed}}};
 constexpr OptionTable kCraneTables[] = {kCraneOptions};
 
-constexpr ArgumentEntry kStateMatrix = {"A", ValueKind::kAny, about("n x n matrix")};
+constexpr ArgumentEntry kStateMatrix = {"A", ValueKind::kAny, about("state matrix of the system: n x n for n states")};
 constexpr ArgumentEntry kRegulatorArguments[] = {
     kStateMatrix,
-    {"B", ValueKind::kAny, about("n x inputs matrix")},
-    {"Q", ValueKind::kAny, about("state weighting matrix: n x n, symmetric positive semidefinite")},
-    {"R", ValueKind::kAny, about("input weighting matrix: inputs x inputs, symmetric positive definite")}};
-constexpr ArgumentEntry kPlacementArguments[] = {kStateMatrix,
-                                                 {"B", ValueKind::kAny, about("n x 1 matrix, one input")},
-                                                 {"poles", ValueKind::kAny,
-                                                  about("list of n poles, or a complex vector. In a list, {re, im} is "
-                                                        "a complex conjugate pair and counts as two poles")}};
+    {"B", ValueKind::kAny, about("input matrix of the system: n x m for n states and m inputs")},
+    {"Q", ValueKind::kAny, about("state weighting matrix: n x n for n states, symmetric positive semidefinite")},
+    {"R", ValueKind::kAny, about("input weighting matrix: m x m for m inputs, symmetric positive definite")}};
+constexpr ArgumentEntry kPlacementArguments[] = {
+    kStateMatrix,
+    {"B", ValueKind::kAny, about("input matrix of the system: n x 1, because the system must have one input")},
+    {"poles", ValueKind::kAny,
+     about("list of n poles, or a complex vector. In a list, {re, im} is "
+           "a complex conjugate pair and counts as two poles")}};
 constexpr ArgumentEntry kCraneArguments[] = {
     {"controller", ValueKind::kAny,
      about("function of time (s), measured position (m) and measured angle (rad) that returns a voltage (V)")}};

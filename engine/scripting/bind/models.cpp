@@ -51,10 +51,10 @@ constexpr ArgumentEntry kTfArguments[] = {
 constexpr ArgumentEntry kIdprocArguments[] = {
     {"structure", ValueKind::kProcess, about("name of the structure, such as \"P1\", \"P2U\", \"P1D\" or \"P2DU\"")}};
 constexpr ArgumentEntry kSsArguments[] = {
-    {"A", ValueKind::kAny, about("n x n matrix")},
-    {"B", ValueKind::kAny, about("n x inputs matrix")},
-    {"C", ValueKind::kAny, about("outputs x n matrix")},
-    {"D", ValueKind::kAny, about("outputs x inputs matrix")},
+    {"A", ValueKind::kAny, about("state matrix of the system: n x n for n states")},
+    {"B", ValueKind::kAny, about("input matrix of the system: n x m for n states and m inputs")},
+    {"C", ValueKind::kAny, about("output matrix of the system: p x n for n states and p outputs")},
+    {"D", ValueKind::kAny, about("feedthrough matrix of the system: p x m for m inputs and p outputs")},
     {"G", ValueKind::kModel, about("transfer function, instead of the matrices")}};
 constexpr ArgumentEntry
     kEqualTimes = {"G1, G2", ValueKind::kModel, about("models with equal sampling times")},

@@ -28,7 +28,7 @@ TEST(function_library, reports_what_is_wrong_with_its_values) {
     };
     const Matrix X{{1.0}, {-2.0}}, U(2, 0);
     EXPECT_THAT(thrown_message([&] { library_values(library, X, U); }),
-                HasSubstr("log(x) returned NaN at sample 2, for the states -2"));
+                HasSubstr("log(x) returned NaN at sample 2 (state values: -2)"));
     library.values = [](const Matrix& x, const Matrix&) { return x; };
     EXPECT_THAT(thrown_message([&] { library_values(library, X, U); }),
                 HasSubstr("must return 2 functions of 2 values each, but returned 1 of 2"));

@@ -165,12 +165,12 @@ TEST(convert, says_what_is_wrong) {
     EXPECT_NE(thrown_message([&] { c2d(kSecondOrder.with_delay(0.15), 0.1, Discretization::kTustin); }).find("0.15 s"),
               std::string::npos);
     const TransferFunction unstable(from({1}), from({1, -20}));  // a pole at 2/Ts
-    const std::string no_image = "c2d: the tustin method is undefined for a pole at 2/Ts = 20 rad/s; choose another Ts";
+    const std::string no_image = "c2d: the Tustin method is undefined for a pole at 2/Ts = 20 rad/s; choose another Ts";
     EXPECT_EQ(thrown_message([&] { c2d(unstable, 0.1, Discretization::kTustin); }), no_image);
     EXPECT_EQ(thrown_message([&] { c2d(to_state_space(unstable), 0.1, Discretization::kTustin); }), no_image);
     const TransferFunction alternating(from({1}), from({1, 0.7, -0.3}), 0.1);  // (z + 1)(z - 0.3) but for rounding
     EXPECT_EQ(thrown_message([&] { d2c(alternating, Discretization::kTustin); }),
-              "d2c: the tustin method is undefined for a pole at z = -1");
+              "d2c: the Tustin method is undefined for a pole at z = -1");
     EXPECT_NE(thrown_message([&] { c2d(TransferFunction::variable(), 0.1); }).find("zeros"), std::string::npos);
 }
 

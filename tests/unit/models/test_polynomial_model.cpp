@@ -88,7 +88,7 @@ TEST(polynomial_model, refuses_orders_without_meaning) {
     EXPECT_THAT(refusal(2, {1, 1}, {1}), HasSubstr("nk needs one value for each input"));
     EXPECT_THAT(refusal(2, {}, {}), HasSubstr("at least one input"));
     EXPECT_THAT(thrown_message([] { PolynomialModel(PolynomialOrders::arx(1, {1}, {1}), Vector::Zero(3), 1); }),
-                HasSubstr("2 parameters, but 3 were given"));
+                HasSubstr("2 parameters, but the number of specified values is 3"));
     EXPECT_THAT(thrown_message([] { PolynomialModel(PolynomialOrders::arx(1, {1}, {1}), Vector::Zero(2), 0); }),
                 HasSubstr("sampling time must be a positive"));
 }

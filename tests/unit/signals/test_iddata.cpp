@@ -113,7 +113,7 @@ TEST(iddata, merge_takes_no_part_for_what_it_is_not) {
     EXPECT_THAT(thrown_message([&] {
                     IdData::merge({volts, millivolts});
                 }),
-                HasSubstr("part 2 has the input 1 in mV, but the first part has this input in V"));
+                HasSubstr("in part 2, the unit of input 1 is mV, but in the first part it is V"));
     EXPECT_EQ(IdData::merge({volts, meters, numbered(3)}).experiments.size(), 3u);  // what is not known does not differ
 }
 

@@ -104,7 +104,7 @@ TEST(simulation_spread, refuses_what_makes_no_spread) {  // oracle: definitions
                 HasSubstr("the 2 parameters, but got a 3 x 3 matrix"));
     const PolynomialModel two(PolynomialOrders::arx(1, {1, 1}, {1, 1}), Vector{{-0.5, 1, 1}}, 1);
     EXPECT_THAT(thrown_message([&] { simulation_spread(two, Matrix::Identity(3, 3), Vector::Ones(9), 9, random); }),
-                HasSubstr("The model has 2 inputs, but 1 were given"));
+                HasSubstr("The model has 2 inputs, but the number of specified inputs is 1"));
 }
 
 }  // namespace test_simulation_spread

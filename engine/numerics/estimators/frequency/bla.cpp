@@ -345,8 +345,9 @@ void BlaOptions::validate() const {
     if (transient < 0)
         throw InvalidArgument("bla: the number of omitted periods must be nonnegative, but is {}", transient);
     if (!(least_input > 0 && least_input < 1))
-        throw InvalidArgument("bla: the threshold for the amplitude of the input must be between 0 and 1, but is {}",
-                              least_input);
+        throw InvalidArgument(
+            "bla: the threshold for the amplitude of the input must be between 0 and 1 (both excluded), but is {}",
+            least_input);
     if (smooth && *smooth < 0)
         throw InvalidArgument(
             "bla: the number of frequencies on each side over which variances are averaged must be nonnegative, but is "

@@ -52,15 +52,16 @@ void set_size(SpectralEstimate& estimate, Index count, bool smoothed) {
 }
 
 void describe(SpectralEstimate& estimate, const EtfeOptions& options, Index lines) {
-    estimate.message =
-        options.smooth > 0
-            ? Message("Empirical transfer function estimate at {} of {} frequencies, smoothed over {} lines.",
-                      estimate.w.size(), lines, 2 * options.smooth + 1)
-            : Message("Empirical transfer function estimate at {} of {} frequencies.", estimate.w.size(), lines);
+    estimate.message = options.smooth > 0 ? Message(
+                                                "Empirical transfer function estimate at {} of {} frequencies, "
+                                                "smoothed over {} neighboring frequencies.",
+                                                estimate.w.size(), lines, 2 * options.smooth + 1)
+                                          : Message("Empirical transfer function estimate at {} of {} frequencies.",
+                                                    estimate.w.size(), lines);
     if (estimate.w.size() < lines)
         estimate.message =
-            sentences({estimate.message, Message("At the other frequencies the input has less than {} % of its largest "
-                                                 "amplitude, and the estimate would show only noise.",
+            sentences({estimate.message, Message("At the other frequencies, the amplitude of the input is below {} % "
+                                                 "of its maximum, and the estimate would show only noise.",
                                                  significant(100 * options.least_input, 3))});
     if (estimate.w.size() < 3)
         estimate.warnings.push_back(
@@ -76,8 +77,9 @@ void EtfeOptions::validate() const {
         throw InvalidArgument(
             "etfe: the number of frequencies on each side for smoothing must be nonnegative, but is {}", smooth);
     if (!(least_input >= 0 && least_input < 1))
-        throw InvalidArgument("etfe: the threshold for the amplitude of the input must be between 0 and 1, but is {}",
-                              least_input);
+        throw InvalidArgument(
+            "etfe: the threshold for the amplitude of the input must be at least 0 and less than 1, but is {}",
+            least_input);
 }
 
 SpectralEstimate etfe(const IdData& data, const EtfeOptions& options) {

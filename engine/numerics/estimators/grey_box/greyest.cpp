@@ -347,7 +347,7 @@ void set_measures(GreyFit& result, const GreyOutput& criterion, const Fit& end, 
     result.intervals << fit.theta - reach * fit.std, fit.theta + reach * fit.std;
     if (!rough.empty())
         fit.warnings.push_back(
-            Message("At t = {} no integration step was small enough, because the equations are discontinuous. Use "
+            Message("At t = {}, no integration step was small enough, because the equations are discontinuous. Use "
                     "smooth equations, such as tanh(v/small) instead of sign(v).",
                     rough.front()));
 }
@@ -433,8 +433,8 @@ GreyFit unfitted_grey_box(const GreyModel& model) {
 
 Matrix grey_response(const GreyFit& grey, const GreyInputs& inputs, const Vector& x0) {
     if (inputs.u.cols() != grey.model.inputs && !(grey.model.inputs == 0))
-        throw InvalidArgument("The model has {}, but {} were given", plural(grey.model.inputs, "{} input", "{} inputs"),
-                              inputs.u.cols());
+        throw InvalidArgument("The model has {}, but the number of specified inputs is {}",
+                              plural(grey.model.inputs, "{} input", "{} inputs"), inputs.u.cols());
     if (inputs.u.rows() != inputs.t.size())
         throw InvalidArgument("The inputs have {}, but the time vector has {}",
                               plural(inputs.u.rows(), "{} sample", "{} samples"),

@@ -87,7 +87,7 @@ Reduced reduce(const Snapshots& pairs, const DmdcOptions& options) {
     const Index seen = distinguishable(of_next.s), r = rank > 0 ? rank : seen;
     if (r > seen)
         throw InvalidArgument("dmdc: {} is {}, but the data support only {}", OptionName{"rank"}, rank,
-                              plural(seen, "{} direction", "{} directions"));
+                              plural(seen, "{} singular vector", "{} singular vectors"));
     const Index p = std::min(r + nu, distinguishable(of_now.s));
     const Matrix U = of_next.U.leftCols(r);
     const Matrix G = U.transpose() * next * of_now.V.leftCols(p) * of_now.s.head(p).cwiseInverse().asDiagonal() *

@@ -120,8 +120,8 @@ Vector regress(const std::vector<Vector>& v, const std::vector<Vector>& e, Index
     for (const Vector& data_set : v) rows += std::max<Index>(0, data_set.size() - first);
     if (rows <= nc + nd)
         throw InvalidArgument(
-            "the noise model needs longer experiments: {} samples are required after the first {} samples of each "
-            "experiment, but only {} remain",
+            "the noise model needs longer experiments: at least {} samples are required, not counting the first {} of "
+            "each experiment, but the number is {}",
             nc + nd + 1, first, rows);
     Matrix gram = Matrix::Zero(nc + nd + 1, nc + nd + 1);
     for (std::size_t r = 0; r < v.size(); ++r)

@@ -95,7 +95,8 @@ Fit fit_prediction(const std::string& method, const PredictionModel& model, cons
     const Vector y = model.target();
     if (y.size() <= model.parameter_count())
         throw InvalidArgument(
-            "{} estimates {} and needs more samples than that, but only {} samples have all required past values",
+            "{} estimates {} and needs more samples than that, but only {} samples have all required past values. Use "
+            "more data or lower orders",
             method, plural(model.parameter_count(), "{} value", "{} values"), y.size());
     std::vector<Vector> complete;
     for (const Vector& values : starts) complete.push_back(model.completed(values));

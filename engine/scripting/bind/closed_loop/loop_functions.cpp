@@ -22,7 +22,7 @@ constexpr std::array kLoopOutputOrders = {kNb, kNf, kNk};
 
 constexpr std::array kSimloopOptions = {
     OptionEntry{"noise", ValueKind::kVector,
-                about("N samples of noise, added to the output that the controller reads")},
+                about("N samples of noise, added to the output that the controller reads; by default, no noise")},
     option<&LoopController::computing_delay>(
         "ComputingDelay", about("delay in samples from reading y to the corresponding u, for sampled controllers")),
     OptionEntry{"hold",

@@ -23,8 +23,9 @@ constexpr std::array kGreyOptions = {
                                         {.initial = "\"model\"", .choices = kGreyStarts, .member = "initial_state"}),
     option<&GreyOptions::max_iterations>("MaxIter", about("maximum number of iterations"),
                                          {.minimum = 0, .member = "max_iterations"}),
-    option<&GreyOptions::tolerance>("Tol", about("relative change of the parameters below which the search stops"),
-                                    {.initial = "1e-6", .member = "tolerance"}),
+    option<&GreyOptions::tolerance>(
+        "Tol", about("the search stops when the relative change of the parameters is below this value"),
+        {.initial = "1e-6", .member = "tolerance"}),
     option<&GreyOptions::relative_tolerance>(
         "RelTol",
         about("relative tolerance of an integration step; parameters with little effect on the outputs need a smaller "
