@@ -132,8 +132,8 @@ class DataLooker {
             row.push_back(text(Message("{} x {} numbers", matrix->rows(), matrix->cols())));
             add_range(row, matrix->reshaped());
         } else if (const auto* list = std::get_if<std::shared_ptr<VariableList>>(&variable.value)) {
-            row.push_back(text(data_.columns.empty() ? Message("{} entries", (*list)->size())
-                                                     : Message("{} strings", (*list)->size())));
+            row.push_back(text(data_.columns.empty() ? plural(std::ssize(**list), "{} entry", "{} entries")
+                                                     : plural(std::ssize(**list), "{} string", "{} strings")));
         } else if (std::holds_alternative<std::shared_ptr<VariableTable>>(variable.value)) {
             row.push_back(text(Message("a structure")));
         } else if (const auto* words = std::get_if<std::string>(&variable.value)) {

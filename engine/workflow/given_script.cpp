@@ -83,7 +83,8 @@ Message nearly_called(const fs::path& folder, const std::string& name) {
     std::sort(near.begin(), near.end());
     constexpr std::size_t kMax = 3;
     near.resize(std::min(near.size(), kMax));
-    return Message("but there is {}: rename it to {}", listed(near), name);
+    return near.size() == 1 ? Message("but there is {}: rename it to {}", near.front(), name)
+                            : Message("but there are {}: rename the correct file to {}", listed(near), name);
 }
 
 fs::path meant_script(const fs::path& given) {

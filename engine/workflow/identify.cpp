@@ -126,13 +126,15 @@ constexpr const char* kNoValidation = R"( No
 -- validation data were given. Validate the model on data that were not used for the estimation.)";
 
 std::string structure_of(const IdentifyRequest& request) {
-    if (!request.poles) return message_text(request.delay ? Message("No delay.") : Message("An estimated delay."));
+    if (!request.poles)
+        return message_text(request.delay ? Message("The model has no delay.")
+                                          : Message("The model has an estimated delay."));
     const Message poles = plural(*request.poles, "{} pole", "{} poles"),
                   zeros = plural(request.zeros.value_or(0), "{} zero", "{} zeros");
-    if (!request.delay) return message_text(Message("{}, {} and an estimated delay.", poles, zeros));
-    return message_text(*request.delay > 0
-                            ? Message("{}, {} and a delay of {} s.", poles, zeros, fmt::format("{}", *request.delay))
-                            : Message("{}, {}.", poles, zeros));
+    if (!request.delay) return message_text(Message("The model has {}, {} and an estimated delay.", poles, zeros));
+    return message_text(*request.delay > 0 ? Message("The model has {}, {} and a delay of {} s.", poles, zeros,
+                                                     fmt::format("{}", *request.delay))
+                                           : Message("The model has {} and {}.", poles, zeros));
 }
 
 std::string search_of(const IdentifyRequest& request, const std::string& suffix) {
@@ -201,7 +203,8 @@ void IdentifyRequest::validate() const {
             "number");
     if (!poles && zeros && *zeros > 3)
         throw InvalidArgument(
-            "at most 4 poles can be determined automatically, and the number of poles must exceed the number of zeros");
+            "if the number of poles is determined automatically, the number of zeros must be at most 3; specify the "
+            "number of poles");
     if (!poles && delay && *delay > 0)
         throw InvalidArgument(
             "the number of poles can be determined automatically only without delay or with an estimated delay; "

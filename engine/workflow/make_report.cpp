@@ -96,8 +96,8 @@ ReportRequest report_of_lesson(const Lesson& lesson, const fs::path& output, con
         request.template_file = report;
         request.metadata.clear();
     } else if (!language.empty()) {
-        throw EnvironmentError("lesson {} has no report in the language \"{}\" ({})", lesson.slug, language,
-                               report.filename().string());
+        throw EnvironmentError("lesson {} has no report in the language \"{}\"; the file {} does not exist",
+                               lesson.slug, language, report.filename().string());
     }
     return request;
 }
@@ -202,8 +202,8 @@ ReportRequest sheet_of(const std::string& name, const fs::path& output, const st
     const Lesson lesson = find_lesson(name);
     const PercentScript master = lesson_script(lesson, language);
     if (!language.empty() && master.header.language != language)
-        throw EnvironmentError("lesson {} has no tasks in the language \"{}\" ({})", lesson.slug, language,
-                               lesson.tasks(language).filename().string());
+        throw EnvironmentError("lesson {} has no tasks in the language \"{}\"; the file {} does not exist", lesson.slug,
+                               language, lesson.tasks(language).filename().string());
     const PercentScript tasks = parse_percent_script(
         without_solutions(master.source, lesson.script(), master.header.language), lesson.script());
     ReportRequest request = report_of_script(tasks, output.empty() ? fs::path(lesson.slug + "_sheet.pdf") : output);
@@ -223,7 +223,8 @@ ReportRequest talk_sheet_of(const std::string& name, bool with_answers, const fs
     const Lesson lesson = find_lesson(name);
     const fs::path file = lesson.talk_questions();
     if (!fs::is_regular_file(file))
-        throw EnvironmentError("lesson {} has no questions for a talk ({})", lesson.slug, file.string());
+        throw EnvironmentError("lesson {} has no questions for a talk; the file {} does not exist", lesson.slug,
+                               file.string());
     const PercentScript master = read_percent_script(lesson.script());
     ReportRequest request = report_of_script(master, output.empty() ? fs::path(lesson.slug + "_talk.pdf") : output);
     request.metadata["title"] = "Questions after the talk";

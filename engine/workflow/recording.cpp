@@ -41,12 +41,15 @@ Recording::Recording(const std::string& name, const std::vector<std::string>& in
     };
     for (const std::string& other : inputs)
         if (signal(other).numbers.size() != samples)
-            throw EnvironmentError("{}: the input '{}' has {}, but the input '{}' has {}", name_, other, length(other),
-                                   inputs.front(), samples);
+            throw EnvironmentError(
+                "{}: inputs and outputs must have the same length, but the input '{}' has {} and the input '{}' has {}",
+                name_, other, length(other), inputs.front(), samples);
     for (const std::string& other : outputs)
         if (signal(other).numbers.size() != samples)
-            throw EnvironmentError("{}: the output '{}' has {}, but the input '{}' has {}", name_, other, length(other),
-                                   inputs.front(), samples);
+            throw EnvironmentError(
+                "{}: inputs and outputs must have the same length, but the output '{}' has {} and the input '{}' has "
+                "{}",
+                name_, other, length(other), inputs.front(), samples);
     find_sampling(Ts, time);
 }
 
@@ -160,10 +163,10 @@ std::string Recording::filled() const {
                 "print({})\n",
                 lua_text(message_text(
                     input
-                        ? Message("{}: {} of {} samples are missing; missing input samples are replaced with the "
+                        ? Message("{}: no value in {} of {} samples; missing input samples are replaced with the "
                                   "previous value.",
                                   name, missing, numbers.size())
-                        : Message("{}: {} of {} samples are missing; missing output samples are linearly interpolated.",
+                        : Message("{}: no value in {} of {} samples; missing output samples are linearly interpolated.",
                                   name, missing, numbers.size()))));
         }
     };

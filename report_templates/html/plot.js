@@ -6,7 +6,7 @@ const dynlabPlots = (() => {
   const { tr, text } = dynlabWords;
   const WORDS = { whole: tr("Whole figure"), kind: tr("interactive figure"), curve: tr("Show or hide: {}"), handle: tr("handle; move it with the arrow keys"),
                   copy: tr("Copy"), copied: tr("Copied"), stored: tr("Saved"),
-                  help: tr("Arrows: read values; + and −: zoom; Shift and arrows: pan; 0: whole figure; Esc: exit") };
+                  help: tr("Arrow keys: read values; + and −: zoom; Shift and arrow keys: pan; 0: whole figure; Esc: exit") };
   const say = (key, ...values) => text(WORDS[key], ...values);
 
   const plots = new Set();  // those in the page

@@ -7,7 +7,7 @@ const dynlabTables = (() => {
   const { tr, trPlural, text } = dynlabWords;
   const WORDS = { data: tr("Data"), table: tr("Data of the figure: {}"), copy: tr("Copy as CSV"), copied: tr("Copied"), lower: tr("{}, lower"),
                   upper: tr("{}, upper"), all: trPlural("{} sample", "{} samples"), some: tr("{} of {} samples"),
-                  thinned: tr("thinned: {} of {} samples"), thinnedMore: tr("thinned: {} of {} samples, {} of them shown") };
+                  thinned: tr("reduced to {} of {} samples"), thinnedMore: tr("reduced to {} of {} samples, {} of them shown") };
   const say = (key, ...values) => text(WORDS[key], ...values);
   const make = (name, kind = "", text = "") => Object.assign(document.createElement(name), { className: kind, textContent: text });
 

@@ -82,7 +82,7 @@ TEST_F(workbench_page_parts, titles_and_the_table_of_models_are_whole) {
     EXPECT_TRUE(says(browser, "Données")) << "buttons of pictures, too";
     EXPECT_FALSE(
         browser.becomes_true("[...document.querySelectorAll('.plot, .plot *')].some((one) => "
-                             "/Show or hide|Arrows/.test(one.ariaLabel ?? ''))",
+                             "/Show or hide|Arrow keys/.test(one.ariaLabel ?? ''))",
                              0.1));
 }
 

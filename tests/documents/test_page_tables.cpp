@@ -111,14 +111,15 @@ TEST_F(page_tables, of_very_long_records_say_that_they_are_thinned) {
     ASSERT_LT(kept, 4100);
     const int seen = static_cast<int>(rows().size()) - 1;
     EXPECT_EQ(value("document.querySelectorAll('.samples caption')[0].innerText"),
-              fmt::format("thinned: {} of 20001 samples, {} of them shown", kept, seen));
+              fmt::format("reduced to {} of 20001 samples, {} of them shown", kept, seen));
     EXPECT_EQ(value("document.querySelectorAll('.samples caption')[1].innerText"), "2 samples");
     browser.evaluate(
         "Object.defineProperty(navigator, 'clipboard', {value: {writeText: text => { window.copied = text; }}});"
         "document.querySelector('.samples .csv').click()");
     ASSERT_TRUE(browser.becomes_true("window.copied !== undefined"));
     const std::string csv = value("copied");
-    EXPECT_TRUE(csv.starts_with(fmt::format("# thinned: {} of 20001 samples\ntime (s),", kept))) << csv.substr(0, 200);
+    EXPECT_TRUE(csv.starts_with(fmt::format("# reduced to {} of 20001 samples\ntime (s),", kept)))
+        << csv.substr(0, 200);
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), kept + 2);
 }
 

@@ -299,7 +299,7 @@ TEST(bad_input, models_of_the_wrong_kind_are_refused) {
         {"step_construction(P)", "must be a model returned by step_first_order, step_second_order or step_delayed"},
         {"crossvalidate(d, P)", "must be a function of a data object, but a model was given"},
         {"d2c(P)", "the model is already a continuous-time model"},
-        {"forecast(3, 1)", "must be a regression"},
+        {"forecast(3, 1)", "must be a regression result"},
     };
     for (const auto& [code, sentence] : kCases)
         EXPECT_THAT(said(models + "print(" + code + ")"), AllOf(StartsWith("ERROR"), HasSubstr(sentence))) << code;

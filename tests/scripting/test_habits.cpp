@@ -81,10 +81,10 @@ TEST(habits, of_other_programs_functions_lead_to_those_here) {
           "upper",      "trapz",    "zpkdata",  "unique",  "randperm", "exit",     "datetime", "input",
           "fminsearch", "mag2db",   "real",     "imag",    "conj",     "getpar",   "chol",     "tfestimate"}) {
         const std::string said = error_of("print(" + std::string(name) + ")");
-        const std::string::size_type hint = said.find("unknown function '" + std::string(name) + "'; ");
+        const std::string::size_type hint = said.find("unknown function or variable '" + std::string(name) + "'; ");
         ASSERT_NE(hint, std::string::npos) << name << ": " << said;
         const std::string words =
-            said.substr(hint + std::string("unknown function ''; ").size() + std::string(name).size());
+            said.substr(hint + std::string("unknown function or variable ''; ").size() + std::string(name).size());
         for (std::sregex_iterator i(words.begin(), words.end(), kCall), end; i != end; ++i)
             EXPECT_EQ(printed("print(type(" + (*i)[2].str() + "))"), "function\n") << name << ": " << said;
     }
@@ -110,7 +110,7 @@ TEST(habits, tables_of_numbers_are_vectors) {
     options.out_folder = options.script_folder = folder.path();
     EXPECT_EQ(printed("save_csv('r.csv', {fit = {1, 2.5}})\nprint(load('r.csv').fit)", options), "[1 2.5]\n");
     EXPECT_THAT(error_of("save_csv('r.csv', {fit = {1, 'a'}})", options),
-                HasSubstr("'fit': entry 2 of a list of numbers is the string \"a\""));
+                HasSubstr("'fit': entry 2 of a list of numbers must be a number, but it is the string \"a\""));
     EXPECT_EQ(printed("print(freqresp(tf({1}, {1, 1}), 1))"), "[0.5 - 0.5i]\n");
 }
 

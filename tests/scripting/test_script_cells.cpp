@@ -175,7 +175,7 @@ TEST(script_cells, sliders_are_their_own_number_and_are_recorded) {
              {"slider('k', 1, 0, 2, {step = -1})", "must be greater than 0 and at most 2"},
              {"slider('k', 1, 1, 2, {log = true, step = 1})", "and cannot have a step"},
              {"slider('k', 1, 1, 2) slider('k', 1, 1, 2)", "is already used"},
-             {"slider('a b', 1, 1, 2)", "may contain only letters"},
+             {"slider('a b', 1, 1, 2)", "is not valid: use only letters"},
              {"slider('k', 0/0, 1, 2)", "is outside"}})
         EXPECT_THAT(test::error_of(call), testing::HasSubstr(sentence)) << call;
 }
@@ -199,7 +199,8 @@ TEST(script_cells, other_ranges_are_counted_again) {
     EXPECT_EQ(title("x_range = {0, 2000}"), "");
     EXPECT_EQ(title("x_range = {0, 2000}, y_range = {2, 5}"), "20 of 20 outside the axes");
     EXPECT_EQ(title("x_range = {2, 5}, title = 'all'"), "all");
-    EXPECT_EQ(title("title = '1 of 20 outside the axes'} f:set{x_range = {2, 5}"), "1 of 20 outside the axes") << "it is the author's";
+    EXPECT_EQ(title("title = '1 of 20 outside the axes'} f:set{x_range = {2, 5}"), "1 of 20 outside the axes")
+        << "it is the author's";
 }
 
 TEST(script_cells, show_curves_as_described) {
@@ -217,9 +218,10 @@ TEST(script_cells, show_curves_as_described) {
     EXPECT_TRUE(panel.references.at(0).horizontal);
     EXPECT_EQ(test::error_of("plot({1, 2}, {1, 2}, {xlable = 'x'})"),
               "lesson.lua:1: plot: unknown option 'xlable'; did you mean 'xlabel'?");
-    EXPECT_EQ(test::error_of("plot({1, 2}, {1, 2}, '--')"),
-              "lesson.lua:1: plot: a string is the name of the curve; for the style \"--\" use {style = \"points\"} or "
-              "{dash = 1}");
+    EXPECT_EQ(
+        test::error_of("plot({1, 2}, {1, 2}, '--')"),
+        "lesson.lua:1: plot: a string is the name of the curve; for the style \"--\", use {style = \"points\"} or "
+        "{dash = 1}");
     EXPECT_EQ(
         test::error_of("save(plot({1, 2}, {1, 2}), '/etc/x.pdf')"),
         "lesson.lua:1: save: '/etc/x.pdf' is outside the script's folder and the output folder; scripts can write "

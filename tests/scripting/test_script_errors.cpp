@@ -36,13 +36,14 @@ TEST(script_errors, say_which_name_is_unknown_and_which_is_near) {
 
 TEST(script_errors, name_the_lua_form_of_a_matlab_function) {
     check({
-        {"disp(3)", "lesson.lua:1: unknown function 'disp'; write print(x)"},
-        {"local n = length({1})", "lesson.lua:1: unknown function 'length'; write #v"},
-        {"numel({1})", "lesson.lua:1: unknown function 'numel'; write #v"},
+        {"disp(3)", "lesson.lua:1: unknown function or variable 'disp'; write print(x)"},
+        {"local n = length({1})", "lesson.lua:1: unknown function or variable 'length'; write #v"},
+        {"numel({1})", "lesson.lua:1: unknown function or variable 'numel'; write #v"},
         {"size({1})",
-         "lesson.lua:1: unknown function 'size'; write #v for a vector, A.rows and A.columns for a matrix"},
-        {"fprintf('%d', 1)", "lesson.lua:1: unknown function 'fprintf'; write print(string.format(\"%.3f\", x))"},
-        {"local w = 2*pi", "lesson.lua:1: unknown function 'pi'; write math.pi"},
+         "lesson.lua:1: unknown function or variable 'size'; write #v for a vector, A.rows and A.columns for a matrix"},
+        {"fprintf('%d', 1)",
+         "lesson.lua:1: unknown function or variable 'fprintf'; write print(string.format(\"%.3f\", x))"},
+        {"local w = 2*pi", "lesson.lua:1: unknown function or variable 'pi'; write math.pi"},
     });
 }
 
@@ -159,6 +160,9 @@ TEST(script_errors, hint_at_lua_where_a_line_is_matlab) {
         {"for k = 1:10\nend",
          "lesson.lua:1: expected ',' before ':'; write a loop in the form: for k = 1, N do ... end"},
         {"local x = A\\b", "lesson.lua:1: unexpected '\\'; write A\\b as solve(A, b)"},
+        {"elseif x then", "lesson.lua:1: unexpected 'elseif': no block is open"},
+        {"else", "lesson.lua:1: unexpected 'else': no block is open"},
+        {"if 1 then x = 2 end end", "lesson.lua:1: unexpected 'end': no block is open"},
         {"if true then\nprint(1)\n", "lesson.lua:1: the 'if' in line 1 has no 'end'"},
         {"for i = 1, 2 do print(1)", "lesson.lua:1: the 'for' in line 1 has no 'end'"},
         {"for i = 1, 2 do\nprint(1)", "lesson.lua:1: the 'for' in line 1 has no 'end'"},
@@ -226,12 +230,13 @@ TEST(script_errors, say_what_habits_of_other_languages_lead_to) {
          "lesson.lua:1: plot: \"LineWidth\" is an option of MATLAB's plot; write the options as one table, plot(x, y, "
          "{line_width = 2, color = \"red\", style = \"points\"})"},
         {"plot({1, 2}, {color = 'pinkish'})",
-         "lesson.lua:1: plot: option 'color' must be a nonnegative number, or one of \"blue\", \"orange\", \"black\", "
+         "lesson.lua:1: plot: option 'color' must be a nonnegative integer, or one of \"blue\", \"orange\", \"black\", "
          "\"green\", \"purple\", \"cyan\", \"red\", \"magenta\", \"gray\", \"grey\", but \"pinkish\" was given"},
         {"io.open('x')",
-         "lesson.lua:1: unknown function 'io'; read data with load(name), write data with save_csv(path, data), and "
+         "lesson.lua:1: unknown function or variable 'io'; read data with load(name), write data with save_csv(path, "
+         "data), and "
          "print values with print(x)"},
-        {"strcmp('a', 'b')", "lesson.lua:1: unknown function 'strcmp'; write a == b"},
+        {"strcmp('a', 'b')", "lesson.lua:1: unknown function or variable 'strcmp'; write a == b"},
     });
 }
 
@@ -318,9 +323,11 @@ TEST(script_errors, refuse_to_replace_functions_of_dynlab) {
               "lesson.lua:1: 'mean' is a function or table of dynlab and cannot be replaced; choose another name, or "
               "write 'local mean = ...' to define a variable with this name");
     EXPECT_EQ(error_of("string.trim = 1"),
-              "lesson.lua:1: 'string' belongs to dynlab and cannot be changed; use a table or a local function");
+              "lesson.lua:1: 'string' is a built-in table and cannot be changed; store values and functions in your "
+              "own table");
     EXPECT_EQ(error_of("dynlab.mean = 1"),
-              "lesson.lua:1: 'dynlab' belongs to dynlab and cannot be changed; use a table or a local function");
+              "lesson.lua:1: 'dynlab' is a built-in table and cannot be changed; store values and functions in your "
+              "own table");
     EXPECT_EQ(printed("answer_to_all = 42\nanswer_to_all = 43\nprint(answer_to_all, dynlab.sum{1, 2})\nlocal mean = "
                       "5\nprint(mean)"),
               "43\t3\n5\n");

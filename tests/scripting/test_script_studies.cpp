@@ -57,7 +57,7 @@ TEST(script_studies, print_shows_truth_scatter_bias_and_failures) {
                          "then error('no luck') end return lssvf(d, {2, 1, 0}, 3) end}, 50)\nprint(M)\n"
                          "print(M.own.failed, M.own.estimated)"),
         AllOf(HasSubstr("Monte Carlo study of 50 runs"), HasSubstr("truth"), HasSubstr("Cramer-Rao std"),
-              HasSubstr("reported std"), HasSubstr("lssvf is biased: the mean of a1, a2, b0"),
+              HasSubstr("reported std"), HasSubstr("lssvf is biased in a1, a2, b0: the mean"),
               HasSubstr("own: 1 of 50 runs failed"), HasSubstr("no luck"), HasSubstr("1\t49\n")));
 }
 

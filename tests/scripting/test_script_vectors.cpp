@@ -27,8 +27,9 @@ TEST(script_vectors, measure_matrices_by_columns) {
     EXPECT_EQ(printed("print(median{5, 1, 3}, median{4, 1, 3, 2}, sum(gt({1, 5, 7}, 2)), sum(5), sum(zeros(0)))"),
               "3\t2.5\t2\t5\t0\n");
     EXPECT_EQ(error_of("median{}"), "lesson.lua:1: median: argument 1 (v) has no elements");
-    EXPECT_EQ(error_of("std(matrix{{1, 2}})"),
-              "lesson.lua:1: std: a standard deviation or a variance needs at least two values, but only one was given");
+    EXPECT_EQ(
+        error_of("std(matrix{{1, 2}})"),
+        "lesson.lua:1: std: a standard deviation or a variance needs at least two values, but only one was given");
 }
 
 TEST(script_vectors, round_and_take_logarithms) {
@@ -66,7 +67,7 @@ TEST(script_vectors, delays_are_written_as_exponentials) {
 
 TEST(script_vectors, logarithmic_axes_say_what_they_leave_out) {
     EXPECT_EQ(printed("local fig = semilogy(range(1, 4), vector{1, 0, -1, 2})"),
-              "semilogy: 2 of 4 points are omitted, because a logarithmic axis shows only positive values\n");
+              "semilogy: the figure omits 2 of 4 points, because a logarithmic axis shows only positive values\n");
     EXPECT_EQ(printed("local fig = loglog(range(1, 4), range(1, 4), {color = 'red'})"), "");
 }
 
@@ -108,7 +109,7 @@ TEST(script_vectors, give_and_take_elements) {
         "lesson.lua:2: v[4] does not exist: v has 3 elements, and its length is fixed. Use zeros(n) to create a vector "
         "of length n, or vector{v, x} to append x to v");
     EXPECT_EQ(error_of("local v = vector{1, 2, 3}\nv:range(2, 4)"),
-              "lesson.lua:2: range: the elements 2 to 4 do not exist: v has the elements 1 to 3");
+              "lesson.lua:2: range: elements 2 to 4 cannot be selected: v has the elements 1 to 3");
     EXPECT_EQ(error_of("local s = 'v = ' .. vector{1}"),
               "lesson.lua:1: the operator .. joins strings; convert the vector to a string first: tostring(x)");
 }

@@ -161,7 +161,7 @@ std::string curve_name(const Call& call, int index) {
             name);
     if (is_line_specification(name))
         throw InvalidArgument(
-            "a string is the name of the curve; for the style \"{}\" use {style = \"points\"} or {dash = 1}", name);
+            "a string is the name of the curve; for the style \"{}\", use {style = \"points\"} or {dash = 1}", name);
     return name;
 }
 
@@ -198,9 +198,10 @@ void note_left_out(const Call& call, const Panel& panel) {
     }
     if (left_out > 0)
         call.print(
-            localized(call,
-                      Message("{}: {} of {} points are omitted, because a logarithmic axis shows only positive values",
-                              call.function_name(), left_out, all)) +
+            localized(
+                call,
+                Message("{}: the figure omits {} of {} points, because a logarithmic axis shows only positive values",
+                        call.function_name(), left_out, all)) +
             "\n");
 }
 

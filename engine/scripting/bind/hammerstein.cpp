@@ -30,7 +30,7 @@ constexpr OptionTable kHammerstein[] = {kCharacteristicOptions, kDelayOptions, k
 
 constexpr std::array kHammersteinArguments = {
     ArgumentEntry{"data", ValueKind::kData,
-                  about("data object with one input with zero-order hold and one output; any number of experiments")},
+                  about("data object with one input (zero-order hold), one output and any number of experiments")},
     ArgumentEntry{"np", ValueKind::kCount, about("number of poles of the linear part")},
     ArgumentEntry{"nz", ValueKind::kCount, about("number of zeros of the linear part")}};
 

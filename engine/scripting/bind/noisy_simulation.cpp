@@ -170,7 +170,9 @@ std::optional<TransferStructure> structure_of_estimate(const Model& model) {
 }
 
 SimulationSpread spread_of(const Model& model, const InputSignals& input, Hold hold, Index runs, RandomStream& random) {
-    if (input.Ts == 0) throw InvalidArgument("the input must be sampled regularly");
+    if (input.Ts == 0)
+        throw InvalidArgument(
+            "the input must be sampled regularly; interpolate it at equally spaced instants (interp1)");
     if (static_cast<std::size_t>(input.u.cols()) != model.inputs())
         throw InvalidArgument("the model has {}, but the number of input signals is {}",
                               plural(model.inputs(), "{} input", "{} inputs"), input.u.cols());
@@ -183,7 +185,9 @@ SimulationSpread spread_of(const Model& model, const InputSignals& input, Hold h
             return simulation_spread(*structure, model.estimate->theta, covariance, input.u, input.Ts, hold, runs,
                                      random);
     }
-    throw InvalidArgument("simsd requires an estimated model with one output, and the covariance of its parameters");
+    throw InvalidArgument(
+        "simsd requires a model with one output and a parameter covariance; use an estimated model, such as the result "
+        "of srivc");
 }
 
 Figure spread_figure(const std::string& name, const SimulationSpread& spread, const Vector& t, double level) {

@@ -89,7 +89,7 @@ std::pair<int, int> range_of(const Options& options, const char* name, std::pair
     }
     const auto [from, to] = *options.range(name);
     if (from != std::floor(from) || to != std::floor(to))
-        throw InvalidArgument("option '{}' must be two whole numbers {from, to}", name);
+        throw InvalidArgument("option '{}' must be one whole number, or two whole numbers {from, to}", name);
     return {static_cast<int>(from), static_cast<int>(to)};
 }
 

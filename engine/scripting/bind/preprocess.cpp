@@ -43,10 +43,14 @@ constexpr OptionEntry kFillMethod = {
 constexpr OptionEntry kGapOptions[] = {
     kFillMethod,
     {"t", ValueKind::kVector, about("increasing sampling instants of irregularly sampled data")},
-    {"longest", ValueKind::kCount, about("longest gap in samples to fill; by default 10 for linear interpolation")}};
+    {"longest", ValueKind::kCount,
+     about("longest gap in samples to fill; by default, 10 for \"linear\" and no limit for \"previous\"")}};
 constexpr std::array kOutlierOptions = {
-    option<&OutlierOptions::window>("window", about("window length of the moving median, an odd number of samples")),
-    option<&OutlierOptions::threshold>("threshold", about("distance from the median in robust standard deviations"))};
+    option<&OutlierOptions::window>("window",
+                                    about("window length of the moving median, an odd number of samples, at least 3")),
+    option<&OutlierOptions::threshold>(
+        "threshold",
+        about("distance from the median, in robust standard deviations, above which a sample is an outlier"))};
 constexpr OptionTable kTrendTables[] = {kTrendOptions}, kButterworthTables[] = {kButterworthOptions},
                       kGapsTables[] = {kGapOptions}, kOutliersTables[] = {kOutlierOptions};
 
@@ -57,10 +61,10 @@ constexpr ArgumentEntry kTrendArguments[] = {
     kAnySignals,
     {"kind", ValueKind::kChoice,
      about("\"linear\" (the default), \"mean\", or \"start\"; 1 and 0 are equivalent to \"linear\" and \"mean\"")}};
-constexpr ArgumentEntry kButterworthArguments[] = {
-    kRegularSignals,
-    {"{lower, upper}", ValueKind::kVector,
-     about("edges of the band in rad/s: {0, w} is a low-pass, {w, math.huge} a high-pass filter")}};
+constexpr ArgumentEntry kButterworthArguments[] = {kRegularSignals,
+                                                   {"{lower, upper}", ValueKind::kVector,
+                                                    about("edges of the band in rad/s; {0, w} specifies a low-pass "
+                                                          "filter, and {w, math.huge} specifies a high-pass filter")}};
 constexpr ArgumentEntry kResampleArguments[] = {kRegularSignals,
                                                 {"up, down", ValueKind::kCount, about("whole numbers from 1 to 1000")}};
 constexpr ArgumentEntry kMergeArguments[] = {

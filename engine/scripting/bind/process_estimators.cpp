@@ -29,7 +29,7 @@ constexpr std::array kConstructionArguments = {
 constexpr std::array kProcsrivcArguments = {
     ArgumentEntry{"data", ValueKind::kData,
                   about("data object with one input and one output, one or several experiments, regularly or "
-                        "irregularly sampled, zoh or foh")},
+                        "irregularly sampled; the intersample behavior is \"zoh\" or \"foh\"")},
     ArgumentEntry{"structure", ValueKind::kProcess,
                   about("structure: the letter P and the number of poles (1 to 3), followed by any of D (delay), I "
                         "(integrator), Z (zero) and U (underdamped), such as \"P2DU\"; or a result of idproc")}};

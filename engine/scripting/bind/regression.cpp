@@ -48,7 +48,8 @@ constexpr OptionEntry kRegressionPlotOptions[] = {
     {"xlabel", ValueKind::kText, about("x-axis label")},
     {"ylabel", ValueKind::kText, about("y-axis label")}};
 constexpr std::array kDescentOptions = {
-    option<&GradientDescentOptions::step_size>("step", about("step size; by default 1/lambda_max of Phi'Phi/N")),
+    option<&GradientDescentOptions::step_size>(
+        "step", about("step size; by default 1/lambda_max, where lambda_max is the largest eigenvalue of Phi'*Phi/N")),
     option<&GradientDescentOptions::max_iterations>("MaxIter", about("maximum number of iterations")),
     option<&GradientDescentOptions::tolerance>("Tol", about("relative change of theta below which the search stops"),
                                                {.minimum = 0}),

@@ -58,7 +58,7 @@ std::string new_name(const Call& call, const Taken& taken) {
     const bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
         return std::isalnum(c) || c == '_' || c == '-';
     });
-    if (!plain) throw InvalidArgument("the name \"{}\" may contain only letters, digits, _ and -", name);
+    if (!plain) throw InvalidArgument("the name \"{}\" is not valid: use only letters, digits, _ and -", name);
     if (taken(name))
         throw InvalidArgument("the name \"{}\" is already used by an entry of this kind; choose another name", name);
     return name;
@@ -259,7 +259,8 @@ int outcome(Call& call) {
     const double found = call.number(2, Message("result"));
     push_predictions(L);
     if (lua_getfield(L, -1, name.c_str()) != LUA_TTABLE)
-        throw InvalidArgument("no prediction is named \"{}\"; write guess(\"{}\", 1) above", name, name);
+        throw InvalidArgument("no prediction is named \"{}\"; first enter your prediction with guess(\"{}\", NUMBER)",
+                              name, name);
     lua_getfield(L, -1, "unit");
     const std::string unit = lua_tostring(L, -1);
     const Message shown = with_unit(found, unit);

@@ -86,7 +86,8 @@ std::vector<std::string> list_of_texts(lua_State* L, int index) {
     std::vector<std::string> texts;
     for (lua_Unsigned i = 1; i <= lua_rawlen(L, index); ++i) {
         if (lua_rawgeti(L, index, static_cast<lua_Integer>(i)) != LUA_TSTRING)
-            throw InvalidArgument("entry {} of a list of strings is {}", i, given_value(L, -1));
+            throw InvalidArgument("entry {} of a list of strings must be a string, but it is {}", i,
+                                  given_value(L, -1));
         texts.emplace_back(lua_tostring(L, -1));
         lua_pop(L, 1);
     }
@@ -97,7 +98,8 @@ Vector list_of_numbers(lua_State* L, int index, const std::string& name) {
     Vector numbers(static_cast<Index>(lua_rawlen(L, index)));
     for (Index i = 0; i < numbers.size(); ++i) {
         if (lua_rawgeti(L, index, i + 1) != LUA_TNUMBER)
-            throw InvalidArgument("'{}': entry {} of a list of numbers is {}", name, i + 1, given_value(L, -1));
+            throw InvalidArgument("'{}': entry {} of a list of numbers must be a number, but it is {}", name, i + 1,
+                                  given_value(L, -1));
         numbers[i] = lua_tonumber(L, -1);
         lua_pop(L, 1);
     }
@@ -221,9 +223,9 @@ Variable variable_on_top(const Call& call, const std::string& name, int depth) {
     if (lua_type(L, -1) == LUA_TSTRING) return {std::string(lua_tostring(L, -1))};
     if (is_table_of_variables(L, lua_gettop(L))) return structure(variables_of(call, lua_gettop(L), depth + 1));
     if (!is_list_of(L, -1, LUA_TSTRING))
-        refuse_entry(
-            L, name,
-            Message("a number, text, a vector, a matrix, a model, data, a list of strings or a table of these"));
+        refuse_entry(L, name,
+                     Message("a number, a string, a vector, a matrix, a model, a data object, a list of strings or a "
+                             "table of these"));
     auto cells = std::make_shared<VariableList>();
     for (const std::string& text : list_of_texts(L, lua_gettop(L))) cells->push_back({text});
     return {cells};

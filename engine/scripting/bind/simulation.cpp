@@ -22,8 +22,9 @@ namespace {
 
 constexpr std::array kLsimOptions = {
     kHoldOption,
-    OptionEntry{"x0", ValueKind::kVector,
-                about("state at the first sample, in the controllable canonical form of a transfer function")}};
+    OptionEntry{
+        "x0", ValueKind::kVector,
+        about("state at the first sample; for a transfer function, the state of its controllable canonical form")}};
 constexpr std::array kSvfOptions = {
     OptionEntry{"Ts", ValueKind::kNumber, about("sampling time; required"), {.unit = "s"}},
     OptionEntry{"hold",

@@ -21,14 +21,15 @@ namespace {
 
 constexpr OptionEntry kStudyOptions[] = {
     {"system", ValueKind::kModel, about("true continuous-time model")},
-    {"input", ValueKind::kVector, about("samples of the input")},
+    {"input", ValueKind::kVector, about("samples of the input; required unless you specify `controller`")},
     {"controller", ValueKind::kModel,
      about("controller of a closed loop u = C (r - y), instead of `input`: a model, or a number")},
-    {"reference", ValueKind::kVector, about("samples of the reference of the closed loop")},
+    {"reference", ValueKind::kVector, about("samples of the reference of the closed loop; required with `controller`")},
     {"ComputingDelay", ValueKind::kCount, about("delay of the controller in samples"), {.initial = "0"}},
-    {"Ts", ValueKind::kNumber, about("sampling time"), {.unit = "s"}},
+    {"Ts", ValueKind::kNumber, about("sampling time; required"), {.unit = "s"}},
     option<&MonteCarloStudy::hold>("hold", kHoldOption.description, {.initial = "\"zoh\"", .choices = kHolds}),
-    option<&MonteCarloStudy::sigma>("sigma", about("standard deviation of the noise"), {.minimum = 0}),
+    option<&MonteCarloStudy::sigma>("sigma", about("standard deviation of the noise; specify either `sigma` or `snr`"),
+                                    {.minimum = 0}),
     option<&MonteCarloStudy::snr>("snr",
                                   about("signal-to-noise ratio 20 log10(std(x)/std(noise)), where x is the output "
                                         "without noise; instead of `sigma`"),

@@ -194,7 +194,9 @@ struct MeasuredModel {
 
 void check_one_output(Index outputs) {
     if (outputs == 1) return;
-    throw InvalidArgument("fit_measures requires one output, but the model has {}", outputs);
+    throw InvalidArgument(
+        "fit_measures requires a model with one output, but the model has {}. Use fit, which accepts several outputs",
+        outputs);
 }
 
 MeasuredModel measured_model(const Call& call, int index) {

@@ -84,7 +84,7 @@ int vector_range(Call& call) {
     NumericBlock& v = vector_self(call);
     const Index first = call.integer(2, "first"), last = call.integer(3, "last");
     if (first < 1 || last > v.rows || first > last + 1)
-        throw InvalidArgument("the elements {} to {} do not exist: v has {}", first, last, elements_of(v.rows));
+        throw InvalidArgument("elements {} to {} cannot be selected: v has {}", first, last, elements_of(v.rows));
     return call.give_vector(v.vector().segment(first - 1, last - first + 1));
 }
 

@@ -49,7 +49,7 @@ constexpr std::array kRangeArguments = {
 constexpr std::array kOneVectorArguments = {
     ArgumentEntry{"v", ValueKind::kVector, about("vector, or a table of numbers such as {1, 2, 3}")}};
 constexpr std::array kUnwrapArguments = {
-    ArgumentEntry{"x", ValueKind::kVector, about("vector of angles that jump at the ends of the range")},
+    ArgumentEntry{"x", ValueKind::kVector, about("vector of angles with jumps of one full turn")},
     ArgumentEntry{"period", ValueKind::kNumber, about("one full turn: 360 for degrees; by default 2*pi")}};
 constexpr std::array kDotArguments = {
     ArgumentEntry{"a", ValueKind::kVector, about("vector, or a table of numbers")},

@@ -138,9 +138,9 @@ void Call::at_most(int arguments) const {
     const Message all = plural(arguments, "{} argument", "{} arguments");
     if (orders)
         throw InvalidArgument("accepts at most {}, but {}; write the orders as one table {}", all, given, "{1, 1, 0}");
-    // An option in the form of MATLAB: a name, then its value.
+    // An option in the form of MATLAB: a name, after an argument at least, then its value.
     for (const int name : {arguments, arguments + 1})
-        if (lua_type(state_, name) == LUA_TSTRING)
+        if (name > 1 && name < arguments_ && lua_type(state_, name) == LUA_TSTRING)
             throw InvalidArgument("accepts at most {}, but {}; write the options as one table {}", all, given,
                                   fmt::format("{{{} = value}}", lua_tostring(state_, name)));
     throw InvalidArgument("accepts at most {}, but {}", all, given);

@@ -110,7 +110,8 @@ int read_member(lua_State* L) {
 
 int refuse_writing(lua_State* L) {
     const auto& type = *static_cast<const ObjectType*>(lua_touserdata(L, lua_upvalueindex(1)));
-    raise_error(L, Message("{} cannot be changed; create a new object", with_article(type.name)));
+    raise_error(L, Message("the fields of {} cannot be assigned; use a method, or create a new object",
+                           with_article(type.name)));
 }
 
 /// __concat: Lua would say "concatenate a userdata value".

@@ -40,7 +40,9 @@ int call_with_checked_range(lua_State* L) {
         const lua_Integer last = luaL_checkinteger(L, kFirst + 1);
         const bool far_apart = last > first && static_cast<lua_Unsigned>(last) - static_cast<lua_Unsigned>(first) >
                                                    static_cast<lua_Unsigned>(kMaxTableLength);
-        if (far_apart) raise_error(L, Message("the range from {} to {} is longer than the longest table", first, last));
+        if (far_apart)
+            raise_error(L,
+                        Message("the range from {} to {} contains more elements than a table can have", first, last));
     }
     return call_with_checked_length(L);
 }

@@ -66,8 +66,7 @@ GreyEstimate to_grey_box(const Call& call, int index) {
 }
 
 std::string grey_presentation(const GreyFit& grey, const Reader& reader) {
-    std::string text =
-        message_text(Message("grey-box model with the states {}", listed(grey.model.state_names)), reader);
+    std::string text = message_text(Message("grey-box model (states: {})", listed(grey.model.state_names)), reader);
     text += "\n" + message_text(Message("Parameters:"), reader) + "\n";
     for (Index i = 0; i < grey.fit.theta.size(); ++i) text += parameter_line(grey, i, reader);
     text += initial_lines(grey, reader);

@@ -60,7 +60,7 @@ double needed_number(const Options& options, const char* name, const Message& wh
 ReferenceLine read_reference(const Call& call, int index) {
     const Options options(call, index, kReferenceTables);
     if (options.has("x") == options.has("y"))
-        throw InvalidArgument("a reference line must be either {y = level} or {x = instant}");
+        throw InvalidArgument("a reference line must be either {y = value} (horizontal) or {x = value} (vertical)");
     ReferenceLine line;
     line.horizontal = options.has("y");
     line.at = line.horizontal ? options.number("y", 0) : options.number("x", 0);
@@ -96,7 +96,7 @@ int color_at(const Call& call, int index) {
         if (found != kColorNames.end()) return static_cast<int>(std::min(found - kColorNames.begin(), kGrey));
         throw InvalidArgument(
             "{} must be {}, but \"{}\" was given", option_label("color"),
-            Message("a nonnegative number, or one of {}", listed_in_quotes({kColorNames.begin(), kColorNames.end()})),
+            Message("a nonnegative integer, or one of {}", listed_in_quotes({kColorNames.begin(), kColorNames.end()})),
             name);
     }
     const double number = lua_type(L, index) == LUA_TNUMBER ? lua_tonumber(L, index) : -1;

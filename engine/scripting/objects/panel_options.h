@@ -27,7 +27,8 @@ inline constexpr std::array kPanelOptions = {
                 about("list of curves, each {x =, y =, label =, style =, color =, dash =, line_width =, marker =}; a "
                       "curve with y_upper is a band from y to y_upper")},
     OptionEntry{"references", ValueKind::kTable,
-                about("list of reference lines, {y = level, label =, dash =} or {x = instant, label =, dash =}")},
+                about("list of reference lines: horizontal {y = value, label =, dash =} or vertical {x = value, label "
+                      "=, dash =}")},
     OptionEntry{"annotations", ValueKind::kTable, about("list of marked points, {x =, y =, text =, marker =}")},
     OptionEntry{"arrows", ValueKind::kTable, about("list of arrows, {x0 =, y0 =, x1 =, y1 =, text =, both_heads =}")}};
 

@@ -68,7 +68,7 @@ std::string StudyText::bias_of(const MonteCarloResult& result) const {
         if (std::abs(result.bias[i]) > kSignificantDeviation * result.spread[i] / root)
             names.push_back(result.names[static_cast<std::size_t>(i)]);
     if (names.empty()) return "";
-    return text(Message("{} is biased: the mean of {} differs significantly from the true value.", result.label,
+    return text(Message("{} is biased in {}: the mean differs significantly from the true value.", result.label,
                         listed(names))) +
            "\n";
 }
@@ -76,12 +76,12 @@ std::string StudyText::bias_of(const MonteCarloResult& result) const {
 std::string StudyText::failures_of(const MonteCarloResult& result, int runs) const {
     std::string lines;
     if (result.failed > 0)
-        lines += text(Message("{}: {} of {} runs failed and are excluded; the first error: {}.", result.label,
-                              result.failed, runs, result.first_failure)) +
+        lines += text(Message("{}: {} of {} runs failed; the results exclude failed runs. First error: {}.",
+                              result.label, result.failed, runs, result.first_failure)) +
                  "\n";
     if (result.not_converged > 0)
-        lines += text(Message("{}: {} of {} runs did not converge; their last values are included.", result.label,
-                              result.not_converged, runs)) +
+        lines += text(Message("{}: {} of {} runs did not converge; the results include the last values of such runs.",
+                              result.label, result.not_converged, runs)) +
                  "\n";
     return lines;
 }

@@ -26,7 +26,9 @@ int refuse_order(Call&) {
 
 int input_of(Call& call) {
     const TracedValue& value = object_argument<TracedValue>(call, 1, "u");
-    if (!value.inputs) throw InvalidArgument("this is a scalar: only the inputs u have elements, u[1], u[2], ...");
+    if (!value.inputs)
+        throw InvalidArgument(
+            "this is a scalar, which has no elements; only the input u has numbered elements, such as u[1]");
     const Index i = call.integer(2, Message("number of the input"));
     if (i < 1 || i > 1000) throw InvalidArgument("u[{}] does not exist: inputs are numbered from 1 to 1000", i);
     value.trace->inputs = std::max(value.trace->inputs, i);

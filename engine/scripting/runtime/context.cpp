@@ -40,7 +40,9 @@ Message stop_sentence(const RuntimeContext& context, StopReason reason) {
         case StopReason::kClockTime:
             return Message("the script did not finish within {} s", context.options.time->seconds(TimeLimit::kClock));
         case StopReason::kOutputLimit:
-            return Message("the script printed more text than allowed");
+            return Message(
+                "the script printed more text than allowed; print fewer values, for example not in every iteration of "
+                "a loop");
         default:
             return Message("interrupted");
     }

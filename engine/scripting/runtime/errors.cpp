@@ -194,7 +194,8 @@ Message syntax_sentence(const std::string& text, const std::string& near) {
             *max_locals);
     if (text.find("unfinished string") != std::string::npos) return Message("unterminated string");
     if (near == "<eof>") return Message("the script ends in the middle of a statement");
-    if (starts_with(text, "<eof> expected") && near != "end")
+    const bool closes = near == "end" || near == "else" || near == "elseif" || near == "until";
+    if (starts_with(text, "<eof> expected") && !closes)
         return Message(
             "unexpected '{}': return must be the last statement of its block. Remove return, or comment out the "
             "statements after it with --",

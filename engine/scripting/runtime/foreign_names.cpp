@@ -56,7 +56,7 @@ const auto& name_hints() {
                           "return {dx1, dx2} end",
                           "{}")},
         {"pi", Message("write math.pi")},
-        {"rem mod", Message("write a % b")},
+        {"rem mod", Message("write a % b, which has the sign of b, or math.fmod(a, b), which has the sign of a")},
         {"inf Inf", Message("write math.huge")},
         {"NaN nan", Message("write 0/0")},
         {"scatter", Message("write plot(x, y, {style = \"points\"})")},
@@ -86,12 +86,14 @@ const auto& name_hints() {
         {"cond rank", Message("write lsq(Phi, y); its result contains the condition number")},
         {"conj", Message("complex numbers have the fields re, im, abs and arg")},
         {"cpsd pwelch tfestimate", Message("write spa(data) or etfe(data), which return frequency responses")},
-        {"ctrb obsv", Message("use ss(A, B, C, D) with place or lqr")},
+        {"ctrb obsv", Message("dynlab has no controllability or observability matrix; place(A, B, poles) reports a "
+                              "system that is not controllable")},
         {"cumprod", Message("write exp(cumsum(log(v))) for a vector of positive values")},
         {"d2d", Message("write c2d(d2c(G), Ts)")},
         {"date datetime", Message("scripts have no access to the system or the date")},
         {"db mag2db", Message("write 20*log10(x)")},
-        {"deconv", Message("write pole(tf({1}, a)) for the roots of a polynomial")},
+        {"deconv",
+         Message("dynlab has no polynomial division; pole(tf({1}, a)) returns the roots of the polynomial a")},
         {"double", Message("every number is in double precision; tonumber(text) converts a string")},
         {"exit quit", Message("a script ends after its last line")},
         {"expm", Message("use lsim(G, u, Ts) or c2d(G, Ts), which compute the matrix exponential")},
@@ -111,7 +113,7 @@ const auto& name_hints() {
         {"imag", Message("a complex number has the field im")},
         {"initial", Message("write lsim(G, u, t, {x0 = ...}) with an input of zeros")},
         {"input", Message("scripts have no interactive input; put the value in a variable")},
-        {"int32", Message("write math.floor(x)")},
+        {"int32", Message("write round(x)")},
         {"isa", Message("write type(x)")},
         {"iscell", Message("write type(x) == \"table\"")},
         {"isfield", Message("a missing field is nil: t.name == nil")},
@@ -142,10 +144,10 @@ const auto& name_hints() {
         {"strsplit", Message("write string.gmatch(text, \"[^,]+\") in a loop")},
         {"svd", Message("write eig(A:t()*A): the square roots of the eigenvalues are the singular values")},
         {"trace", Message("add the elements A[{i, i}] in a loop")},
-        {"trapz", Message("write sum(y)*Ts, or cumsum(y)*Ts for the integral over time")},
+        {"trapz", Message("write sum(y)*Ts for the integral, or cumsum(y)*Ts for the integral up to each sample")},
         {"unique", Message("write sort(v) and omit repeated values")},
         {"upper", Message("write string.upper(text)")},
-        {"zpkdata", Message("write zero(G), pole(G) and dcgain(G)")},
+        {"zpkdata", Message("write zero(G) and pole(G), and G.num[1]/G.den[1] for the gain")},
         {"allmargin", Message("write margin(G)")},
         {"balred",
          Message(
@@ -163,7 +165,7 @@ const auto& name_hints() {
         {"idpoly", Message("polynomial models come from estimators such as arx, armax, oe and bj; write tf(num, den) "
                            "for a transfer function")},
         {"idss", Message("write ss(A, B, C, D)")},
-        {"idtf", Message("write tf(num, den, {IODelay = s})")},
+        {"idtf", Message("write tf(num, den, {IODelay = Td}) with the delay Td in seconds")},
         {"isct isdt", Message("a discrete-time model has a positive G.Ts")},
         {"lpvsrivc", Message("rsrivc(data, {nb, nf, nk}, lambda, {forgetting = 0.99}) tracks parameters that change "
                              "with time; srivc(data, {nb, nf, nk}) fits data at one operating point")},
@@ -232,7 +234,7 @@ const auto& member_hints() {
     static const Message kCounting =
         Message("#v counts the elements of a vector; for a matrix, use A.rows and A.columns");
     static const MemberHint hints[] = {
-        {"iddata", "Fs", Message("data.Ts is the sampling time in seconds")},
+        {"iddata", "Fs", Message("write 1/data.Ts for the sampling frequency; data.Ts is the sampling time")},
         {"iddata", "InputData input", Message("the input is data.u")},
         {"iddata", "OutputData output", Message("the output is data.y")},
         {"iddata", "SamplingInstants", Message("the sampling instants are data.t")},

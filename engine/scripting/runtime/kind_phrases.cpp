@@ -31,14 +31,14 @@ const auto& kind_phrases() {
         KindPhrases{"model", Message("a model"), Message("the model")},
         KindPhrases{"process structure", Message("a process structure"), Message("the process structure")},
         KindPhrases{"state-space model", Message("a state-space model"), Message("the state-space model")},
-        KindPhrases{"simulated model", Message("a simulated model"), Message("the simulated model")},
+        KindPhrases{"simulated model", Message("a nonlinear model"), Message("the nonlinear model")},
         KindPhrases{"grey-box model", Message("a grey-box model"), Message("the grey-box model")},
         KindPhrases{"grey-box estimate", Message("a grey-box estimate"), Message("the grey-box estimate")},
         KindPhrases{"traced value", Message("a symbolic value"), Message("the symbolic value")},
-        KindPhrases{"regression", Message("a regression"), Message("the regression")},
+        KindPhrases{"regression", Message("a regression result"), Message("the regression result")},
         KindPhrases{"Monte Carlo study", Message("a Monte Carlo study"), Message("the Monte Carlo study")},
-        KindPhrases{"table of orders", Message("a table of orders"), Message("the table of orders")},
-        KindPhrases{"table of ARX orders", Message("a table of ARX orders"), Message("the table of ARX orders")},
+        KindPhrases{"table of orders", Message("a result of srivcstruc"), Message("the result of srivcstruc")},
+        KindPhrases{"table of ARX orders", Message("a result of arxstruc"), Message("the result of arxstruc")},
         KindPhrases{"figure", Message("a figure"), Message("the figure")},
     };
     return phrases;

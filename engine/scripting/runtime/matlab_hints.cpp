@@ -264,7 +264,7 @@ Message matlab_syntax_hint(const std::string& line, const std::string& near) {
     if (Message hint = command_hint(code, near); !hint.empty()) return hint;
     const auto first = code.find_first_not_of(" \t");
     if (first != std::string::npos && (code[first] == '%' || code[first] == '#')) return comment_form();
-    if (has_assignment_condition(code)) return Message("to compare, write == instead of =");
+    if (near == "=" && has_assignment_condition(code)) return Message("to compare, write == instead of =");
     if (Message hint = operator_hint(code); !hint.empty()) return hint;
     if (ends_with(code, "...") && near != ")")
         return Message("omit \"...\"; in Lua, a statement can continue on the next line");
@@ -281,7 +281,8 @@ Message matlab_syntax_hint(const std::string& line, const std::string& near) {
     if (contains(code, "%") || contains(code, "# ")) return comment_form();
     if (contains(code, "\\")) return Message("write A\\b as solve(A, b)");
     static const RE2 kBeginsWithDigit(R"(\d+[A-Za-z_]\w*)", RE2::Latin1), kContinue(R"(\bcontinue\b)", RE2::Latin1);
-    if (RE2::FullMatch(near, kBeginsWithDigit)) return Message("a name must start with a letter");
+    if (RE2::FullMatch(near, kBeginsWithDigit))
+        return Message("a name must start with a letter or _; write a product with *, such as 2*x");
     if (RE2::PartialMatch(code, kContinue)) return *matlab_name_hint("continue");
     if (contains(code, "@(")) return inline_function_form();
     return {};

@@ -94,7 +94,9 @@ int refuse_unknown_member(lua_State* L) {
 
 int refuse_change(lua_State* L) {
     const std::string table = lua_tostring(L, lua_upvalueindex(1));
-    raise_error(L, Message("'{}' belongs to dynlab and cannot be changed; use a table or a local function", table));
+    raise_error(
+        L,
+        Message("'{}' is a built-in table and cannot be changed; store values and functions in your own table", table));
 }
 
 /// __pairs of a sealed table: walks a copy of what it shows.
@@ -171,7 +173,7 @@ Message unknown_name(const std::string& name, const std::string& line, std::vect
     if (const Message comment = comment_hint(line, name); !comment.empty())
         return Message("unknown variable '{}'; {}", name, comment);
     if (const Message* const matlab = matlab_name_hint(name))
-        return Message("unknown function '{}'; {}", name, *matlab);
+        return Message("unknown function or variable '{}'; {}", name, *matlab);
     const auto near = nearest(name, std::move(names));
     return near ? Message("unknown function or variable '{}'; did you mean '{}'?", name, *near)
                 : Message("unknown function or variable '{}'", name);

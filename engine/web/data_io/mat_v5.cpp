@@ -307,7 +307,7 @@ std::string matrix_of(const Variable& variable, const std::string& name, int dig
     if (const auto* matrix = std::get_if<Matrix>(&variable.value)) return numbers_matrix(*matrix, name, digits);
     if (const auto* table = std::get_if<std::shared_ptr<VariableTable>>(&variable.value))
         return table_matrix(**table, name, digits);
-    throw EnvironmentError("{}: in a browser, a MAT file can contain only numbers and tables of numbers", name);
+    throw EnvironmentError("{}: in a browser, dynlab can save only numbers and tables of numbers in a MAT file", name);
 }
 
 }  // namespace

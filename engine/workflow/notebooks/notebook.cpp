@@ -318,8 +318,9 @@ NotebookScript script_of_notebook(std::string_view text, const std::filesystem::
         CellText read = cell_of_json(cell, first);
         if (kind == "raw" && read.marked) {  // a comment in its place, by which later cells keep their numbers
             read.source = "<!-- A raw cell of the notebook was here. -->";
-            script.losses.push_back(placed(
-                {name}, Message("cell {} is a raw cell, which a script cannot contain; the cell is left out", number)));
+            script.losses.push_back(
+                placed({name},
+                       Message("cell {} is a raw cell, which a script cannot contain; dynlab omits the cell", number)));
         }
         if (!read.text) add_losses_of_code(read.source, number, name, script.losses);
         std::string written = saved_entry(cell, read);

@@ -73,7 +73,7 @@ TEST_F(field_records, input_that_is_logged_on_change_is_held) {
     EXPECT_NEAR(run.record.values.at("b0").number.value_or(NAN), 4, 0.1);
     EXPECT_THAT(
         run.printed,
-        AllOf(HasSubstr("1480 of 1500 samples are missing; missing input samples are replaced with the previous value"),
+        AllOf(HasSubstr("no value in 1480 of 1500 samples; missing input samples are replaced with the previous value"),
               HasSubstr("method = \"previous\"")));
 }
 

@@ -16,6 +16,8 @@ TEST(given_script, that_is_missing_is_looked_for_under_nearly_its_name) {
     const WorkFolder work;
     work.write("capital/Analysis.lua", "print(1)\n");
     work.write("second/analysis (2).lua", "print(1)\n");
+    work.write("several/Analysis.lua", "print(1)\n");
+    work.write("several/analysis (2).lua", "print(1)\n");
     work.write("text/analysis.lua", "print(1)\n");
     work.write("text/Report.md", "Text\n");
     work.write("whole/analysis.lua", "print(1)\n");
@@ -24,6 +26,8 @@ TEST(given_script, that_is_missing_is_looked_for_under_nearly_its_name) {
                 HasSubstr("capital, but there is Analysis.lua: rename it to analysis.lua"));
     EXPECT_THAT(error_of([&] { meant_script(work.path("second")); }),
                 HasSubstr("second, but there is analysis (2).lua: rename it"));
+    EXPECT_THAT(error_of([&] { meant_script(work.path("several")); }),
+                HasSubstr("there are Analysis.lua, analysis (2).lua: rename the correct file to analysis.lua"));
     EXPECT_THAT(error_of([&] { report_of(work.path("capital")); }),
                 HasSubstr("capital has no analysis.lua, but there is Analysis.lua: rename it"));
     EXPECT_THAT(error_of([&] { report_of(work.path("text")); }),

@@ -50,7 +50,7 @@ constexpr std::array kResponseOptions = {
     option<&FrequencyData::input_unit>("InputUnit", about("unit of the input")),
     option<&FrequencyData::output_unit>("OutputUnit", about("unit of the output"))};
 constexpr std::array kBlaOptions = {
-    OptionEntry{"period", ValueKind::kCount, about("period of the input in samples; required")},
+    OptionEntry{"period", ValueKind::kCount, about("period of the input in samples, at least 8; required")},
     option<&BlaOptions::realizations>("realizations", about("number of realizations in each experiment"),
                                       {.minimum = 1}),
     option<&BlaOptions::transient>(
@@ -99,8 +99,8 @@ ResponseForm form_of(const Call& call, int index, const Options& options) {
     if (!decibels && !degrees) return ResponseForm::kComplex;
     if (!degrees)
         throw InvalidArgument(
-            "{}: the first vector is in dB, but the second has the unit \"{}\"; specify the phase in degrees and the "
-            "option form = \"dB\"",
+            "{}: the first vector is in dB, but the unit of the second vector is \"{}\", not degrees. Specify the "
+            "phase in degrees and the option form = \"dB\"",
             argument_label(index, "H"), angle);
     call.print(
         localized(

@@ -21,8 +21,8 @@ constexpr std::array kIdgreyOptions = {
                 {.member = "outputs"}},
     OptionEntry{"x0",
                 ValueKind::kAny,
-                about("initial state: for each state a number, the name of a parameter or \"estimate\"; one such value "
-                      "for all states; or function(p) that returns a table"),
+                about("initial state: for each state a number, a parameter name or \"estimate\"; one such value for "
+                      "all states; or function(p) that returns a table. By default, zero"),
                 {.initial = "0"}},
     OptionEntry{"inputs", ValueKind::kCount,
                 about("number of inputs; required if the function is not symbolic and the model does not have exactly "
@@ -91,7 +91,7 @@ GreyParameter parameter_on_top(lua_State* L, const std::string& name) {
             given_value(L, -1));
     check_fields(L, name);
     if (lua_rawgeti(L, -1, 1) != LUA_TNUMBER)
-        throw InvalidArgument("the parameter {} needs a number as initial value, such as {1.5, min = 0}", name);
+        throw InvalidArgument("the parameter {} needs a number as its initial value, such as {1.5, min = 0}", name);
     parameter.start = lua_tonumber(L, -1);
     lua_pop(L, 1);
     parameter.lower = number_field(L, name, "min", parameter.lower);
@@ -171,9 +171,11 @@ void read_initial_state(const Options& options, ScriptEquations& equations, Grey
     } else if (!lua_isnil(L, place)) {
         if (lua_istable(L, place) == 0 || static_cast<Index>(lua_rawlen(L, place)) != n)
             refuse_option("x0",
-                          Message("a table of {}, one for each state, \"estimate\", or a function of p",
+                          Message("a table of {} (one for each state), \"estimate\", or a function of p",
                                   plural(n, "{} value", "{} values")),
-                          given_value(L, place));
+                          lua_istable(L, place) != 0 ? plural(static_cast<std::int64_t>(lua_rawlen(L, place)),
+                                                              "a table of {} value", "a table of {} values")
+                                                     : given_value(L, place));
         for (Index i = 0; i < n; ++i) {
             lua_rawgeti(L, place, i + 1);
             read_entry(options.call(), equations, model, i);

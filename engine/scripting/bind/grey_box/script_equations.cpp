@@ -18,11 +18,11 @@ namespace {
 using Node = ExpressionTape::Node;
 
 Message rates_wanted(const ScriptEquations& equations) {
-    return Message("one derivative for each of the {} ({})", plural(equations.states.size(), "{} state", "{} states"),
+    return Message("one derivative per state ({}: {})", plural(equations.states.size(), "{} state", "{} states"),
                    listed(equations.states));
 }
 Message start_wanted(const ScriptEquations& equations) {
-    return Message("one value for each of the {} ({})", plural(equations.states.size(), "{} state", "{} states"),
+    return Message("one value per state ({}: {})", plural(equations.states.size(), "{} state", "{} states"),
                    listed(equations.states));
 }
 
@@ -57,15 +57,15 @@ Matrices<Value> read_matrices(lua_State* L, Index n, const Read& read) {
 
 /// Lua's own mathematics takes numbers alone: the message says what to write in its place.
 Message with_remedy(const Message& message) {
-    static const RE2 kOfMath(R"(bad argument #\d+ to '(\w+)' \(number expected, got)", RE2::Latin1);
+    static const RE2 kOfMath(R"(^(.*?)bad argument #\d+ to '(\w+)' \(number expected, got)", RE2::Latin1);
     static const std::set<std::string> kFollowed = {"sin", "cos",  "tan", "atan", "exp",
                                                     "log", "sqrt", "abs", "max",  "min"};
-    std::string name;
-    if (!RE2::PartialMatch(message_text(message), kOfMath, &name)) return message;
+    std::string place, name;
+    if (!RE2::PartialMatch(message_text(message), kOfMath, &place, &name)) return message;
     if (kFollowed.contains(name))
-        return Message("{}; math.{} accepts only numbers, so write {}(...), which also supports symbolic values",
-                       message, name, name);
-    return Message("{}; math.{} accepts only numbers and does not support symbolic values", message, name);
+        return Message("{}math.{} accepts only numbers, so write {}(...), which also supports symbolic values", place,
+                       name, name);
+    return Message("{}math.{} accepts only numbers and does not support symbolic values", place, name);
 }
 
 class Tracer {

@@ -113,7 +113,8 @@ Entries<Value> read_matrix(lua_State* L, int index, const char* name, const Read
         Index columns = 0;
         for (lua_Integer j = 1; lua_rawgeti(L, row, j) != LUA_TNIL; ++j, ++columns) add();
         if (i > 1 && columns != entries.columns)
-            throw InvalidArgument("the rows of the matrix {} have {} and {} elements", name, entries.columns, columns);
+            throw InvalidArgument("the rows of the matrix {} must have the same length, but have {} and {} elements",
+                                  name, entries.columns, columns);
         entries.columns = columns;
         lua_settop(L, row - 1);
     }

@@ -27,7 +27,7 @@ constexpr std::array kRecursiveOptions = {
                             "greater than 0 and at most 1; 1 for no forgetting")),
     OptionEntry{"drift", ValueKind::kVector,
                 about("variances of the random steps of the parameters from one sample to the next, one number for all "
-                      "or one per parameter")},
+                      "or one per parameter. By default, no steps")},
     option<&RecursiveOptions::noise_variance>(
         "NoiseVariance", about("variance of the noise, relative to `drift`; by default computed from the past errors"),
         {.member = "noise_variance"}),
