@@ -262,6 +262,8 @@ TEST(script_errors, name_argument_wanted_and_given) {
         {"sqrt(-2)", "lesson.lua:1: sqrt: the function is undefined for the negative number -2"},
         {"norm({1}, {2})", "lesson.lua:1: norm: accepts at most 1 argument, but 2 were given"},
         {"toc(1)", "lesson.lua:1: toc: accepts no arguments, but 1 was given"},
+        {"regression_plot({}, {}, polyfit_report({1, 2, 3}, {1, 2, 4}, 1))",
+         "lesson.lua:1: regression_plot: argument 1 (x) has no elements"},
         {"lqr(matrix{{0, 0/0}, {0, 0}}, matrix{{0}, {1}}, eye(2), eye(1))",
          "lesson.lua:1: lqr: A contains a value that is not finite"},
         {"lqr(matrix{{0, 1}}, matrix{{0}, {1}}, eye(2), eye(1))",

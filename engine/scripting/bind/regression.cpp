@@ -188,6 +188,7 @@ int draw_regression(Call& call) {
     RegressionPicture picture;
     picture.x = call.vector(1, "x");
     picture.y = call.vector(2, "y");
+    if (picture.x.size() == 0) throw InvalidArgument("{} has no elements", argument_label(1, "x"));
     const double level = options.number("level", 0.95);
     const auto x_new = options.optional_number("forecast");
     const double from = picture.x.minCoeff();
