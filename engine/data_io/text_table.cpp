@@ -128,13 +128,14 @@ bool begins_like_a_formula(std::string_view cell) {
     return std::any_of(kSigns.begin(), kSigns.end(), begins);
 }
 
+constexpr std::string_view kCellEnds = ";\t\r\n";
+
 /// Where a spreadsheet may begin a cell: what separates cells in another country ends them even between quotation
 /// marks, as these hold only where they begin a cell.
 std::string without_formulas(const std::string& cell) {
-    constexpr std::string_view kEnds = ";\t\r\n";
     std::string text;
     for (std::size_t from = 0; from <= cell.size();) {
-        const std::size_t end = std::min(cell.find_first_of(kEnds, from), cell.size());
+        const std::size_t end = std::min(cell.find_first_of(kCellEnds, from), cell.size());
         const std::string part = cell.substr(from, end - from), rest = from == 0 ? cell : part;
         if (begins_like_a_formula(rest) && !read_number<double>(trimmed_cell(rest))) text += "'";
         text += cell.substr(from, end + 1 - from);
@@ -159,6 +160,17 @@ std::string csv_cell(const std::string& given) {
     std::string quoted = "\"";
     for (const char c : cell) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
     return quoted + '"';
+}
+
+std::string as_written(const std::string& cell) {
+    std::string text;
+    for (std::size_t from = 0; from <= cell.size();) {
+        const std::size_t end = std::min(cell.find_first_of(kCellEnds, from), cell.size());
+        const bool guarded = cell[from] == '\'' && begins_like_a_formula(std::string_view(cell).substr(from + 1));
+        text += cell.substr(from + (guarded ? 1 : 0), end + 1 - from - (guarded ? 1 : 0));
+        from = end + 1;
+    }
+    return text;
 }
 
 std::optional<std::size_t> TextTable::column(std::string_view name) const {

@@ -32,5 +32,7 @@ std::optional<double> number_in_cell(const std::string& cell);
 std::string csv_text(const TextTable& table);
 /// One cell of such a text.
 std::string csv_cell(const std::string& given);
+/// What csv_text was given for a cell that read_text_table has read: without those apostrophes.
+std::string as_written(const std::string& cell);
 
 }  // namespace dynlab::inline data_io

@@ -83,6 +83,7 @@ TEST_F(office_page, sixty_answers_are_marked_by_one_key_each) {
     EXPECT_LE(keys, 60 * 1.5);
     ASSERT_TRUE(browser.becomes_true("document.getElementById('progress').textContent === '60 of 60 marked'", 120));
     ASSERT_TRUE(settles(browser));
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('state').textContent === ''")) << "all marks are stored";
     const auto points = points_of(course);
     for (int i = 1; i <= 60; ++i) {
         const int own = given.at(answer_name(course.course(), lab, course.group_id(i)));

@@ -187,6 +187,48 @@ TEST_F(preview_editor, text_cells_look_like_text_until_they_are_edited) {
               json::parse(R"(["A heading", "Question 1: Why is x^2 so? Really?"])"));
 }
 
+/// Oracles: the signs of a text cell, and which of its lines are headings.
+TEST_F(preview_editor, the_next_line_of_a_text_cell_is_text_and_headings_alone_look_like_them) {
+    write(kHead + kScript);
+    const Preview preview(file(), true, {"--edit"});
+    Browser browser;
+    open(browser, preview);
+    go_to(browser, "-- # A heading");
+    press(browser, {}, kEnter);
+    type(browser, "A second paragraph.");
+    EXPECT_EQ(line_of_cursor(browser), "-- A second paragraph.");
+    press(browser, {}, kEnter);
+    type(browser, "- one");
+    EXPECT_EQ(line_of_cursor(browser), "-- - one");
+    press(browser, {"\uE009"}, "s");
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('save').disabled"));
+    EXPECT_THAT(read_text(file()), HasSubstr("-- # A heading\n-- A second paragraph.\n-- - one\n--\n"));
+    EXPECT_TRUE(browser.becomes_true("!document.querySelector('.failure')"));
+    go_to(browser, "-- **Question 1");
+    const auto headings = [&] {
+        return json::parse(
+            browser.evaluate("return [...new Set([...document.querySelectorAll('.cm-header')].map(h => "
+                             "h.closest('.CodeMirror-line').innerText.trim()))]"));
+    };
+    EXPECT_EQ(headings(), json::parse(R"(["-- # A heading"])"));
+}
+
+/// A list that is open takes no line from the user.
+TEST_F(preview_editor, enter_ends_a_complete_line_while_names_are_offered) {
+    write(kHead + kScript);
+    const Preview preview(file(), true, {"--edit"});
+    Browser browser;
+    open(browser, preview);
+    go_to(browser, "print(\"third");
+    press(browser, {}, kEnter);
+    type(browser, "lss");
+    ASSERT_TRUE(browser.becomes_true("document.querySelector('.CodeMirror-hint')"));
+    const int line = std::stoi(browser.evaluate("return cm.getCursor().line"));
+    press(browser, {}, kEnter);
+    EXPECT_EQ(browser.evaluate("return cm.getCursor().line"), std::to_string(line + 1));
+    EXPECT_EQ(line_of_cursor(browser), "");
+}
+
 TEST_F(preview_editor, the_variables_of_the_script_are_listed_and_what_was_typed_is_undone_after_a_new_start) {
     write(kHead + kScript);
     const std::filesystem::path state = folder.path() / "state";

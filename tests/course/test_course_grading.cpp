@@ -73,6 +73,12 @@ TEST_F(course_grading, lab_is_graded_marked_extended_and_totalled) {
     EXPECT_THAT(work().read("k/marks/lab4/results/group-01/feedback.md"), HasSubstr("one reason"));
     EXPECT_THAT(done({"who", "223", "--at", "2026-03-02 12:00"}),
                 AllOf(HasSubstr("late by 1 h"), HasSubstr("90 percent"), HasSubstr("group-02 has 4 points for q")));
+    // A comment that a spreadsheet would take for a formula reaches the student as it was given.
+    done({"mark", "lab4", "Élise Petit", "q", "3", "--reason=-1 for the sign"});
+    EXPECT_EQ(grade().exit_code, 0);
+    EXPECT_THAT(work().read("k/marks/lab4/marks.csv"), HasSubstr("group-01,q,3,'-1 for the sign"));
+    EXPECT_THAT(work().read("k/marks/lab4/results/group-01/feedback.md"),
+                AllOf(HasSubstr("-1 for the sign"), Not(HasSubstr("'-1 for"))));
     // An extension holds at once in the course, and in the feedback with the next run.
     done({"extend", "lab4", "Max Mustermann", "2026-03-02 12:00", "--reason", "illness"});
     EXPECT_THAT(done({"export", "--at", "2026-03-05 12:00"}),

@@ -87,6 +87,7 @@ TEST(peer_review, seeks_former_names_and_counts_copies) {
                 AllOf(HasSubstr("report of group-01 was not sent: page 1: "), HasSubstr("Wilhelmina Rutherford"),
                       HasSubstr("mail address"), HasSubstr("report of group-02 was not sent: page 1: ")));
     EXPECT_EQ(std::count(sent.error_output.begin(), sent.error_output.end(), '\n'), 2);
+    EXPECT_THAT(bench.course({"history"}).output, HasSubstr("crane: copies of reports sent to reviewers: 4\n"));
     const std::string status = bench.course({"status", "--at", "2026-03-01 15:00"}).output;
     EXPECT_THAT(status,
                 ::testing::ContainsRegex("group-01 .* its copy was not sent: see review send\ngroup-02 .* its copy was "
@@ -137,6 +138,32 @@ TEST(peer_review, releases_reviews_after_their_deadline) {
     EXPECT_THAT(bench.course({"review", "release", "--at", "2026-03-08 12:10", "--early"}).output,
                 HasSubstr("8 outstanding"));
     EXPECT_THAT(bench.course({"review", "release", "--at", "2026-03-08 12:11"}).output, HasSubstr("8 outstanding"));
+}
+
+// oracle: nothing was stopped, as the release itself says
+TEST(peer_review, reviews_that_come_after_the_release_are_not_called_blocked) {
+    CourseBench bench(4);
+    submit_all(bench, 4);
+    CourseBench::expect_done(bench.course({"review", "assign", "--at", "2026-03-01 13:00"}));
+    bench.bench().write("review.pdf", small_pdf("sound work"));
+    const auto collect = [&](const std::string& group, const std::string& at) {
+        const std::string report =
+            bench.bench()
+                .shell("$DYNLAB course --course k review pairs | awk '$1 == \"" + group + "\" {print $2}' | head -1")
+                .output;
+        CourseBench::expect_done(bench.course({"review", "collect", "review.pdf", "--from", group, "--of",
+                                               report.substr(0, report.find('\n')), "--at", at, "--no-checks"}));
+    };
+    collect("group-01", "2026-03-03 10:00");
+    EXPECT_THAT(bench.course({"review", "release", "--at", "2026-03-09 10:00"}).output, HasSubstr("1 sent now"));
+    EXPECT_THAT(bench.course({"history"}).output, HasSubstr("2026-03-09 10:00:00  crane: reviews released: 1\n"));
+    collect("group-02", "2026-03-09 11:00");
+    const std::string status = bench.course({"status", "--at", "2026-03-09 12:00"}).output;
+    EXPECT_THAT(status, ::testing::ContainsRegex("group-02 .* a review by it is not released yet: review release\n"));
+    EXPECT_THAT(status, ::testing::Not(HasSubstr("was not released: see")));
+    bench.course({"review", "release", "--at", "2026-03-09 13:00"});
+    EXPECT_THAT(bench.course({"status", "--at", "2026-03-09 14:00"}).output,
+                ::testing::Not(HasSubstr("not released yet")));
 }
 
 // oracle: equality of stores

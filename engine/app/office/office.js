@@ -76,7 +76,8 @@ function drawLog() {
   $("last").textContent = last.line;
   $("last").className = last.code === null ? "running" : last.code === 0 ? "done" : "broken";
   $("lines").replaceChildren(...session.log.toReversed().slice(0, kShownLines).map(drawEntry));
-  if (last.code !== null && last.code !== 0) $("log").querySelector("details").open = true;
+  // While marking, the panel would cover the answer; its card says what was wrong.
+  if (last.code !== null && last.code !== 0 && shownView !== "marking") $("log").querySelector("details").open = true;
   drawState();
 }
 

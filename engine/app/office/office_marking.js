@@ -1,7 +1,7 @@
 // Marking: all answers to one question next to each other, without names, by the keyboard alone. A command stores a
 // mark and refuses it if another user has changed the mark since this page showed it; the page sends the shown entry as
 // "seen".
-import { Lost, ask, command, connected, session } from "./office_session.js";
+import { Lost, ask, command, connected, session, stateChanged } from "./office_session.js";
 import { button, choice, make, shown, textBlocks } from "./office_parts.js";
 import { say } from "./office_words.js";
 
@@ -228,6 +228,7 @@ function store(name, wanted) {
   drawNow(name);
   return order.then((entry) => {
     --waiting;
+    stateChanged();
     if (mark.order === mine) Object.assign(mark, { id: entry.id, points: entry.points, reason: entry.reason, trouble: entry.trouble, order: null });
     drawNow(name);
     return entry.trouble === "";

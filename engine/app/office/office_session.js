@@ -31,6 +31,7 @@ export const onNews = (listen) => listeners.news.push(listen);
 export const onLog = (listen) => listeners.log.push(listen);
 export const onState = (listen) => listeners.state.push(listen);
 const tell = (kind) => { for (const listen of listeners[kind]) listen(); };
+export const stateChanged = () => tell("state");
 
 let back = [];  // those that wait for the connection
 /// Until the server is reached again.
@@ -49,11 +50,14 @@ export function open() {
   stream.onerror = () => now(true);
 }
 
+/// A word of a command as a shell reads it.
+const quoted = (word) => (/^[\w./:=@%+,-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`);
+
 let turn = Promise.resolve();
 /// Runs `dynlab course WORDS`; returns {line, code, words}. Throws Lost if there is no reply: the command may or may
 /// not have run.
 export function command(words) {
-  const entry = { line: `dynlab course ${words.join(" ")}`, code: null, words: "", file: words.find((word) => word.startsWith("--out=exports/"))?.slice(14) };
+  const entry = { line: `dynlab course ${words.map(quoted).join(" ")}`, code: null, words: "", file: words.find((word) => word.startsWith("--out=exports/"))?.slice(14) };
   session.log.push(entry);
   session.log.splice(0, session.log.length - kMaxLines);
   tell("log");

@@ -25,9 +25,13 @@ export async function show(view) {
   field.oninput = () => list.replaceChildren(...found(field.value).slice(0, kMaxFound).map((one) =>
     button(one.id ? `${one.name || one.id} (${one.id})` : one.name, () => take(one.id || one.name), { className: "link" })));
   field.onkeydown = (event) => {
+    if (event.key === "ArrowDown") list.firstElementChild?.focus();
     if (event.key !== "Enter" || field.value.trim() === "") return;
-    const all = found(field.value);
-    take(all.length > 0 && folded(field.value) !== folded(all[0].group) ? all[0].id || all[0].name : field.value.trim());
+    const typed = folded(field.value.trim()), all = found(field.value);
+    const exact = all.filter((one) => [one.name, one.id, one.mail].some((text) => folded(text) === typed));
+    const meant = exact.length > 0 ? exact : all;
+    if (all.length === 0 || all.some((one) => folded(one.group) === typed)) take(field.value.trim());
+    else if (meant.length === 1) take(meant[0].id || meant[0].name);  // of several, the list shows them
   };
   const take = (wanted) => {
     name = wanted;

@@ -10,7 +10,7 @@ export const onStudent = (show) => { showStudent = show; };
 
 const KINDS = {
   "late-waits": "lateWaits", unreadable: "unreadable", "no-pdf": "noPdf", stopped: "stopped", "missing-script": "missingScript", late: "late",
-  held: "held", "newer-report": "newerReport", "newer-review": "newerReview", kin: "kin", unassigned: "unassigned", "same-file": "sameFile", dropped: "dropped",
+  held: "held", "newer-report": "newerReport", unsent: "unsent", unreleased: "unreleased", "newer-review": "newerReview", kin: "kin", unassigned: "unassigned", "same-file": "sameFile", dropped: "dropped",
 };
 const nameOf = ({ kind, stage }) => (kind !== "missing" ? KINDS[kind] : stage === "first" ? "missingFirst" : stage === "final" ? "missingFinal" : "missingReview");
 const DUE = { first: "dueFirst", review: "dueReview", final: "dueFinal" };
@@ -92,8 +92,8 @@ function buttonsOf({ name }, { group, kind, stage, received }) {
         ({ time, reason }) => ["set-received", name, group, time, `--stage=${stage}`, `--reason=${reason}`], [timeField("received", received)])];
     case "stopped": return [accept(stage === "review" ? "release" : "send"), remind("askAgain")];
     case "held": return stage === "first" ? [withReason("free", ({ reason }) => ["withhold", name, group, "--end", `--reason=${reason}`])] : [];
-    case "newer-report": return [review("send")];
-    case "newer-review": return [review("release")];
+    case "newer-report": case "unsent": return [review("send")];
+    case "newer-review": case "unreleased": return [review("release")];
     case "kin": case "unassigned": return [review("assign")];
     case "dropped": return [withReason("restore", ({ reason }) => ["drop", group, "--end", `--reason=${reason}`])];
     default: return [];

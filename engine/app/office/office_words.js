@@ -32,6 +32,7 @@ addWords({
   unreadable: tr("Unreadable"), noPdf: tr("No PDF in the pack"), late: tr("Late"), lateWaits: tr("Late: a large penalty needs your confirmation"),
   sameFile: tr("The same file"), kin: tr("Reviews a report by a current or former group member"), held: tr("Withheld"),
   stopped: tr("Blocked: a name was found"), newerReport: tr("A version newer than the version that was sent"), newerReview: tr("A review newer than the released review"),
+  unsent: tr("Report not sent to the reviewers yet"), unreleased: tr("Review not released yet"),
   unassigned: tr("Arrived after the allocation"), dropped: tr("Dropped out"), costs: tr("{} % deducted"),
 
   // Student

@@ -49,7 +49,7 @@ export function showNames(cm, wanted = false) {
     customKeys: {
       Up: move(-1), Down: move(1), PageUp: move(-8), PageDown: move(8), Esc: (_, list) => list.close(), Tab: (_, list) => list.pick(),
       // A line that is complete ends with Enter, whatever the list offers.
-      Enter: (_, list) => { if (chosen || wanted) return list.pick(); list.close(); cm.execCommand("newlineAndIndentContinueComment"); },
+      Enter: (_, list) => { if (chosen || wanted) return list.pick(); list.close(); cm.execCommand("newlineAndIndent"); },
     },
   });
 }

@@ -5,7 +5,7 @@ import { loadCodeMirror } from "./code_mirror.js";
 import { draftsOf, forget, keepDraft, keepDraftSoon, setAside, wordsOf } from "./drafts.js";
 import { noteOf, readNotes, setNote } from "./notes.js";
 import { inEnglish, say } from "./page_words.js";
-import { cellAt, cellsOf, defineScriptMode, outlineOf } from "./script_mode.js";
+import { cellAt, cellsOf, defineScriptMode, newLine, outlineOf } from "./script_mode.js";
 import { Lost, session } from "./session.js";
 import { showTextCells } from "./text_cells.js";
 import { beginVariables, followVariables } from "./variables.js";
@@ -289,7 +289,7 @@ async function begin() {
     const lineNow = (line) => lineIn(open.doc.getValue(), open.saved, line);
     let helped = {};
     const ask = (key) => () => helped[key]?.();
-    const keys = { "Ctrl-Space": ask("Ctrl-Space"), F1: ask("F1"), "Shift-Enter": () => { runHere(true); }, "Ctrl-Enter": () => { runHere(false); },
+    const keys = { Enter: newLine, "Ctrl-Space": ask("Ctrl-Space"), F1: ask("F1"), "Shift-Enter": () => { runHere(true); }, "Ctrl-Enter": () => { runHere(false); },
                    "Ctrl-/": "toggleComment", "Cmd-/": "toggleComment", "Ctrl-S": () => save(open), "Cmd-S": () => save(open), Esc: () => $("bar").querySelector("button:not([hidden])").focus() };
     const typing = { ...keys, Tab: (cm) => cm.execCommand(cm.somethingSelected() ? "indentMore" : "insertSoftTab"), "Shift-Tab": "indentLess" };
     const passing = { ...keys, Tab: false, "Shift-Tab": false };  // who comes by the keyboard goes on by it

@@ -1,6 +1,6 @@
 // The script as CodeMirror shows it: text cells as Markdown behind faint comment signs, code cells as Lua. And its cells.
 
-const kMarker = /^\s*--\s*%%/, kText = /^\s*--\s*%%.*\[markdown\]/;
+const kMarker = /^\s*--\s*%%/, kText = /^\s*--\s*%%.*\[markdown\]/, kSign = /^\s*-- ?/;
 
 export function defineScriptMode() {
   const { defineMode, getMode, copyState } = window.CodeMirror;
@@ -23,13 +23,16 @@ export function defineScriptMode() {
         if (!state.text) return lua.token(stream, state.lua);
         if (!state.behindSign) {
           state.behindSign = true;
-          if (stream.match(/^\s*-- ?/)) return "sign";
+          if (stream.match(kSign)) return "sign";
         }
-        // Markdown looks for the beginning of lines: it reads the line without its sign.
+        // Markdown looks for the beginning of lines, and at the next line: it reads both without their signs.
         const before = stream.lineStart;
         if (stream.string[0] === "-") stream.lineStart = Math.min(3, stream.string.length);
+        const { lookAhead } = stream;
+        stream.lookAhead = (n) => lookAhead.call(stream, n)?.replace(kSign, "");
         const style = markdown.token(stream, state.markdown);
         stream.lineStart = before;
+        delete stream.lookAhead;
         return style;
       },
       blankLine(state) { if (state.text) markdown.blankLine?.(state.markdown); },
@@ -67,6 +70,15 @@ export function cellsOf(cm) {
   return cells;
 }
 export const cellAt = (cm, line) => cellsOf(cm).findLast(({ marker }) => marker <= line);
+
+/// Enter: in a line of a text cell, the next line is text, too.
+export function newLine(cm) {
+  const inText = ({ head: { line, ch } }) => cellAt(cm, line)?.text && ch >= 2 && cm.getLine(line).startsWith("--");
+  if (!cm.listSelections().every(inText)) return window.CodeMirror.Pass;
+  cm.replaceSelection("\n-- ");
+  cm.scrollIntoView(null);
+  return undefined;
+}
 
 /// Headings and questions of the text cells: {line, level, words}, lines from 0; questions have level 7.
 export function outlineOf(cm) {

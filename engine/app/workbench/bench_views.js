@@ -127,7 +127,13 @@ export function ask() {
     const every = [...new Set([...names, ...session.steps.filter((step) => step.on).flatMap((step) => step.names)])];
     const sizes = {};
     sizeTiles();
-    for (const [name, { body }] of tiles) if (!isEmpty(name)) sizes[name] = [body.clientWidth - 8, body.clientHeight - (name === "record" ? 40 : 4)];
+    for (const [name, { node, body }] of tiles) {
+      if (isEmpty(name)) continue;
+      const failed = node.classList.contains("empty");  // its body is hidden, and has a size all the same
+      node.classList.remove("empty");
+      sizes[name] = [body.clientWidth - 8, body.clientHeight - (name === "record" ? 40 : 4)];
+      node.classList.toggle("empty", failed);
+    }
     const of = [part.raw, part.prepared];
     const until = Math.max(0, ...session.steps.filter((step) => step.names.some((name) => of.includes(name))).map((step) => step.last_line));
     look(every, { ...part, views: ["variables", "models", ...shownViews(), ...(firstAsked ? ["first"] : []), "advice"], models: drawnModels(), all_models: all, first: firstAsked, channel_of, sizes, range, ...(wanted ? { save: wanted } : {}) }, until);

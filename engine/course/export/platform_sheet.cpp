@@ -197,7 +197,7 @@ void PlatformSheet::recognize_canvas(const std::string& assignment) {
     }
     if (assignment.empty()) fitting = all;
     if (fitting.size() != 1)
-        throw EnvironmentError("{}: --assignment must name the column to fill in; the columns are {}", file_.string(),
+        throw EnvironmentError("{}: specify the column to fill in; the columns are {}", file_.string(),
                                listed_columns());
     grade_ = fitting.front();
 }

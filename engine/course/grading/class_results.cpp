@@ -338,7 +338,7 @@ std::vector<std::string> counted_instead(const ClassResults& results) {
     return names;
 }
 
-void write_class_results(const ClassResults& results, const Attention& attention) {
+std::optional<Message> write_class_results(const ClassResults& results, const Attention& attention) {
     write_file_atomically(results.out / "gradebook.csv", csv_text(gradebook_of(results)));
     ask_for_marks(results);
     double possible = 0;
@@ -355,12 +355,22 @@ void write_class_results(const ClassResults& results, const Attention& attention
     record.texts["mistakes"] = {mistakes_of(checks)};
     record.texts["attention"] = {attention_of(results, attention)};
     record.figures["points"] = histogram_of(points, possible);
-    GnuplotRenderer renderer;
-    const TemporaryFolder drawn;
-    draw_figures(record, renderer, drawn.path(), results.pdf ? FigureFormat::kPdf : FigureFormat::kSvg, "en");
-    renderer.finish();
-    results.documents->make("class_summary.md", record, results.out / (results.pdf ? "summary.pdf" : "summary.md"));
-    std::filesystem::remove(results.out / (results.pdf ? "summary.md" : "summary.pdf"));  // of an earlier run
+    const auto summarize = [&](bool pdf) {
+        GnuplotRenderer renderer;
+        const TemporaryFolder drawn;
+        draw_figures(record, renderer, drawn.path(), pdf ? FigureFormat::kPdf : FigureFormat::kSvg, "en");
+        renderer.finish();
+        results.documents->make("class_summary.md", record, results.out / (pdf ? "summary.pdf" : "summary.md"));
+        std::filesystem::remove(results.out / (pdf ? "summary.md" : "summary.pdf"));  // of an earlier run
+    };
+    try {
+        summarize(results.pdf);
+    } catch (const EnvironmentError& error) {
+        if (!results.pdf) throw;
+        summarize(false);  // the marks of a class do not depend on its typeset summary
+        return Message("the summary is in summary.md, because its PDF cannot be created: {}", error.message());
+    }
+    return std::nullopt;
 }
 
 }  // namespace dynlab::inline course

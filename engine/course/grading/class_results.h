@@ -39,6 +39,6 @@ std::vector<std::string> counted_instead(const ClassResults& results);
 /// summary (report_templates/class_summary.md, set in a sandbox): numbers, histogram, success of each check,
 /// submissions that need attention. Missing marks by hand get rows in marks.csv (manual_marks.h); summary.json has the
 /// numbers for programs (grading/class_statistics.h).
-void write_class_results(const ClassResults& results, const Attention& attention);
+std::optional<Message> write_class_results(const ClassResults& results, const Attention& attention);
 
 }  // namespace dynlab::inline course

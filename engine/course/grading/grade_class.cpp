@@ -55,7 +55,7 @@ class ClassGrader {
         std::ranges::sort(outcome_.complaints, {}, [](const Message& complaint) { return message_text(complaint); });
         const ClassResults all = results();
         Attention attention = what_needs_attention(all);
-        write_class_results(all, attention);
+        if (auto problem = write_class_results(all, attention)) outcome_.notes.push_back(std::move(*problem));
         outcome_.attention = std::move(attention.sentences);
         outcome_.unowned = static_cast<int>(attention.unowned);
         outcome_.unreadable = static_cast<int>(attention.unreadable);

@@ -114,8 +114,11 @@ void MarksFile::read() {
     for (std::size_t i = 0; i < table_.rows.size(); ++i) {
         const auto& cells = table_.rows[i];
         if (cells[who_].empty() && cells[points_].empty()) continue;
-        Row row{
-            table_.lines[i], cells[who_], cells[check_].empty() ? kWholeSubmission : cells[check_], {}, cells[reason_]};
+        Row row{table_.lines[i],
+                as_written(cells[who_]),
+                cells[check_].empty() ? kWholeSubmission : cells[check_],
+                {},
+                as_written(cells[reason_])};
         if (!cells[points_].empty()) {
             row.points = number_in_cell(cells[points_]);
             if (!row.points || !(*row.points >= 0 && *row.points <= kMaxPoints))

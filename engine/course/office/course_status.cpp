@@ -282,11 +282,17 @@ class Status {
         if (any_pair([](const ReviewPair& p) { return p.sent; }) &&
             any_pair([id](const ReviewPair& p) { return p.author == id && !p.sent && !p.written; }) &&
             !is_held(course_, assignment_, id, {}))
-            things.push_back({"stopped", "first", "", "its copy was not sent: see review send"});
-        if (any_pair([](const ReviewPair& p) { return p.released; }) && any_pair([&](const ReviewPair& p) {
-                return p.reviewer == id && p.written && !p.released && !is_held(course_, assignment_, id, p.id);
-            }))
-            things.push_back({"stopped", "review", "", "a review by it was not released: see review release"});
+            things.push_back(any_pair([id](const ReviewPair& p) { return p.author == id && p.stopped_report; })
+                                 ? ToDo{"stopped", "first", "", "its copy was not sent: see review send"}
+                                 : ToDo{"unsent", "first", "", "its report is not sent yet: review send"});
+        const auto unreleased = [&](const ReviewPair& p) {
+            return p.reviewer == id && p.written && !p.released && !is_held(course_, assignment_, id, p.id);
+        };
+        if (any_pair([](const ReviewPair& p) { return p.released; }) && any_pair(unreleased))
+            things.push_back(
+                any_pair([&](const ReviewPair& p) { return unreleased(p) && p.stopped_review; })
+                    ? ToDo{"stopped", "review", "", "a review by it was not released: see review release"}
+                    : ToDo{"unreleased", "review", "", "a review by it is not released yet: review release"});
         if (!pairs_.empty() && !in_allocation(group.id))
             things.push_back({"unassigned", "first", "", "arrived after the allocation: review assign"});
         int open = 0;

@@ -101,6 +101,9 @@ class WhoIs {
                 if (name.empty()) return false;
                 const std::string words = " " + line + " ";
                 for (std::size_t at = words.find(" " + name); at != words.npos; at = words.find(" " + name, at + 1)) {
+                    // A text that the instructor wrote, as the course's name, may contain an id such as 2026.
+                    if (std::count(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(at), '"') % 2 != 0)
+                        continue;
                     const char after = words[at + name.size() + 1];
                     if (!std::isalnum(static_cast<unsigned char>(after)) && after != '-') return true;
                 }

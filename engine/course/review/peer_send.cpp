@@ -41,6 +41,7 @@ class CopySender {
         while (send_pairs_not_seen()) {
         }
         empty_outbox_of_others();
+        if (outcome_.sent > 0) note_copies();
         if (!to_reviewers()) count_reviews();
         for (std::vector<Message>* const list : {&outcome_.hits, &outcome_.hints})
             std::ranges::sort(*list, {}, [](const Message& message) { return message_text(message); });
@@ -179,6 +180,15 @@ class CopySender {
             outcome_.hints.push_back(Message("the {} of {} was sent, although it contains names: {}", document, author,
                                              sentences(copy.hits)));
         save_sending(pair, *version, read_file(request.copy), copy.hits.empty() ? "" : author);
+    }
+
+    void note_copies() {
+        Transaction transaction(course_.database());
+        course_.note(to_reviewers()
+                         ? fmt::format("{}: copies of reports sent to reviewers: {}", assignment_.name, outcome_.sent)
+                         : fmt::format("{}: reviews released: {}", assignment_.name, outcome_.sent),
+                     now_);
+        transaction.commit();
     }
 
     /// So that the status stops asking for what cannot be sent.

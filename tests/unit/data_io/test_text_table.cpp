@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include "platform/atomic_file.h"
+#include "platform/temporary_folder.h"
+
 namespace dynlab {
 namespace test_text_table {
 
@@ -24,6 +27,17 @@ TEST(text_table, formulas_are_disarmed_wherever_a_cell_may_begin) {
     EXPECT_EQ(written("Bob\n=1+1"), "\"Bob\n'=1+1\"");
     EXPECT_EQ(written("Bob\t+A1"), "\"Bob\t'+A1\"");
     EXPECT_EQ(written("a; b; -x"), "\"a; b;' -x\"");
+}
+
+// oracle: what was written
+TEST(text_table, cells_are_read_as_they_were_given) {
+    const TemporaryFolder folder;
+    for (const std::string cell : {"=1+1", "-it's \"ok\"", "Bob;=cmd|' /C calc'!A0", "a; b; -x", "'quoted'", "it's",
+                                   "-1.5", "two\n-lines", ""}) {
+        const auto file = folder.path() / "table.csv";
+        write_file_atomically(file, csv_text({{"a", "b"}, {{"x", cell}}, {}}));
+        EXPECT_EQ(as_written(read_text_table(file).rows.at(0).at(1)), cell);
+    }
 }
 
 }  // namespace test_text_table
