@@ -138,7 +138,7 @@ TEST(help, leads_on_from_toolboxes_methods_and_lua) {
     for (const char* name : {"procest", "ssest", "polyest", "idpoly", "disp", "fprintf", "roots"})
         EXPECT_THAT(help_text(name, all), HasSubstr("is a name of another program: ")) << name;
     EXPECT_THAT(help_text("iddata.split", all),
-                StartsWith("data:split(0.6): two data objects, the first 60 % and the rest\n"));
+                StartsWith("data:split(0.6): two data objects, the first 60 % of the samples (rounded to an\n"));
     EXPECT_THAT(help_text("data:shift", all), StartsWith("data:shift(n): input delayed by n samples"));
     EXPECT_THAT(help_text("fig.add", all), StartsWith("fig:add(x, y, {label =, style =, ...}): adds a curve\n"));
     EXPECT_THAT(help_text("pairs", all), AllOf(HasSubstr("is part of Lua"), HasSubstr("Tables\n------")));

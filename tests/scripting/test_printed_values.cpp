@@ -72,8 +72,8 @@ TEST(printed_values, a_missing_sampling_time_is_reported_once) {
 TEST(printed_values, another_unit_of_time_is_reported_once) {
     const std::string said =
         printed("local v = vector{1, 2, 3} iddata(v, v, 1, {TimeUnit = 'min'}) iddata(v, v, 1, {TimeUnit = 'min'})");
-    EXPECT_THAT(said,
-                ContainsRegex("^iddata: these data, and models .* have the time unit min\\. .* the unit is min\n$"));
+    EXPECT_THAT(said, ContainsRegex(
+                          "^iddata: these data, and models .* have the time unit min\\. .* the actual unit is min\n$"));
     EXPECT_EQ(printed("local v = vector{1, 2, 3} iddata(v, v, 1, {TimeUnit = 's'})"), "");
 }
 

@@ -79,7 +79,8 @@ TEST(script_errors, name_the_called_method_once) {
         EXPECT_EQ(error_of(data_set + call).find("lesson.lua:3: " + std::string(method) + ": the input never changes"),
                   0u)
             << error_of(data_set + call);
-    EXPECT_EQ(error_of("local u = prbs(3, 1)\narx(iddata(u, u, 1), {3, 3, 1})").find("lesson.lua:2: arx needs more"),
+    EXPECT_EQ(error_of("local u = prbs(3, 1)\narx(iddata(u, u, 1), {3, 3, 1})")
+                  .find("lesson.lua:2: arx estimates 6 parameters and needs more equations"),
               0u)
         << error_of("local u = prbs(3, 1)\narx(iddata(u, u, 1), {3, 3, 1})");
 }

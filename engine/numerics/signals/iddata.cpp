@@ -252,17 +252,17 @@ IdData IdData::merge(const std::vector<IdData>& parts) {
         if (part.time_unit != merged.time_unit)
             throw InvalidArgument(
                 "merge: part {} has the time unit {}, but the first part has {}. Convert the time of one part, and "
-                "specify the same TimeUnit",
+                "specify the same time unit",
                 i + 1, part.time_unit, merged.time_unit);
         if (part.hold == Hold::kZoh && merged.hold != Hold::kZoh)
             throw InvalidArgument(
                 "merge: the input of part {} has a zero-order hold (zoh), but the input of the first part is linearly "
-                "interpolated (foh). Specify the same InterSample for both parts",
+                "interpolated (foh). Specify the same interpolation for both parts",
                 i + 1);
         if (part.hold != Hold::kZoh && merged.hold == Hold::kZoh)
             throw InvalidArgument(
                 "merge: the input of part {} is linearly interpolated (foh), but the input of the first part has a "
-                "zero-order hold (zoh). Specify the same InterSample for both parts",
+                "zero-order hold (zoh). Specify the same interpolation for both parts",
                 i + 1);
         check_same_units(merged.input_units, part.input_units, Channels::kInputs, i + 1);
         check_same_units(merged.output_units, part.output_units, Channels::kOutputs, i + 1);

@@ -169,8 +169,9 @@ void check_selection(const IdData& data, const std::vector<TransferStructure>& c
         throw InvalidArgument("the number of threads must be nonnegative, but {} was given", options.threads);
     if (candidates.empty())
         throw InvalidArgument(
-            "no structure can be tried: the number of zeros must be less than the number of poles (with option "
-            "'Feedthrough', at most equal)");
+            "no structure can be tried: the number of zeros must be less than the number of poles, or equal with "
+            "direct "
+            "feedthrough");
     for (const TransferStructure& structure : candidates) {
         structure.validate();
         if (!structure.single_channel()) throw InvalidArgument("every structure must have one input and one output");

@@ -259,8 +259,7 @@ int outcome(Call& call) {
     const double found = call.number(2, Message("result"));
     push_predictions(L);
     if (lua_getfield(L, -1, name.c_str()) != LUA_TTABLE)
-        throw InvalidArgument("no prediction is named \"{}\"; first enter your prediction with guess(\"{}\", NUMBER)",
-                              name, name);
+        throw InvalidArgument("no prediction is named \"{}\"; write guess(\"{}\", NUMBER) first", name, name);
     lua_getfield(L, -1, "unit");
     const std::string unit = lua_tostring(L, -1);
     const Message shown = with_unit(found, unit);

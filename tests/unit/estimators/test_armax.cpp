@@ -133,7 +133,8 @@ TEST(armax, refuses_what_it_cannot_fit) {  // oracle: definitions
     PolynomialOrders other = kOrders;
     other.nd = 1;
     EXPECT_THAT(refusal(simulated_data(100, 0.1, 1), other), HasSubstr("nd and nf must be zero"));
-    EXPECT_THAT(refusal(simulated_data(6, 0.1, 1), kOrders), HasSubstr("armax needs more equations"));
+    EXPECT_THAT(refusal(simulated_data(6, 0.1, 1), kOrders),
+                HasSubstr("armax estimates 4 parameters and needs more equations than parameters"));
     IdData constant = simulated_data(100, 0.1, 1);
     constant.experiments[0].u.setOnes();
     EXPECT_THAT(refusal(constant, kOrders), HasSubstr("armax: the input u1 is not persistently exciting of order nb"));

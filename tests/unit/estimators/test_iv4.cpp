@@ -101,7 +101,7 @@ TEST(iv4, refuses_what_it_cannot_fit) {  // oracle: definitions
     other.nc = 1;
     EXPECT_THAT(thrown_message([&] { iv4(simulated_data(100, 0.1, 1), other); }), HasSubstr("nd and nf must be zero"));
     EXPECT_THAT(thrown_message([&] { iv4(simulated_data(6, 0.1, 1), kOrders); }),
-                HasSubstr("iv4 needs more equations"));
+                HasSubstr("iv4 estimates 4 parameters and needs more equations than parameters"));
     EXPECT_NE(thrown_message([&] { iv4(simulated_data(8, 0.1, 1), kOrders); }), "");
 }
 

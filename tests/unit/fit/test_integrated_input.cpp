@@ -85,7 +85,7 @@ TEST(integrated_input, has_no_operating_point) {  // oracle: definition
     FitOptions options = FitOptions().from_rest();
     options.offset = Offset::kRemove;
     EXPECT_THAT(thrown_message([&] { options_with_integrator(options); }),
-                testing::HasSubstr("`offset` \"remove\" cannot be combined with `integration`"));
+                testing::HasSubstr("`offset` = \"remove\" cannot be combined with `integration`"));
     options.offset = Offset::kNone;
     EXPECT_EQ(options_with_integrator(options).offset, Offset::kNone);  // from rest nothing is unknown
 }

@@ -233,7 +233,8 @@ TEST(transfer_refinement, refuses_what_cannot_be_estimated) {
     const auto refine = [&](const IdData& d, const TransferStructure& s, const StartCondition& c, const Vector& start) {
         return refusal([&] { refine_output_error(d, s, c, start, {}); });
     };
-    EXPECT_THAT(refine(data, structure, kRest, Vector::Ones(2)), HasSubstr("3 initial values"));
+    EXPECT_THAT(refine(data, structure, kRest, Vector::Ones(2)),
+                HasSubstr("The number of initial values must be 3, but is 2"));
     EXPECT_THAT(refine(data.range(1, 8), structure, kRest, theta), HasSubstr("at least 9 samples"));
     const IdData pieces = IdData::merge({data.range(1, 4), data.range(41, 44), data.range(21, 24)});
     EXPECT_THAT(refine(pieces, structure, {InitialState::kEstimate, true}, theta),

@@ -137,7 +137,8 @@ TEST(arx_selection, says_what_is_wrong) {
     EXPECT_THAT(complaint({{2, 1}, {1, 1}, {1, 1}}), EndsWith("or higher, but it is {2, 1}"));
     EXPECT_THAT(complaint({{1, 1}, {1, 1}, {-1, 1}}), HasSubstr("nk must be"));
     EXPECT_THAT(complaint({{1, 50}, {1, 50}, {0, 50}}), HasSubstr("more than 2000"));
-    EXPECT_THAT(complaint({{1, 30}, {1, 30}, {1, 1}}), HasSubstr("arxstruc needs more equations"));
+    EXPECT_THAT(complaint({{1, 30}, {1, 30}, {1, 1}}),
+                HasSubstr("arxstruc estimates 60 parameters and needs more equations than parameters"));
     IdData two = data;
     two.experiments[0].u.conservativeResize(Eigen::NoChange, 2);
     two.input_names = {"u1", "u2"};

@@ -274,7 +274,7 @@ TEST(prediction, refuses_what_it_cannot_predict) {  // oracle: definitions
     };
     EXPECT_THAT(refusal(s.data(), noisy(s.model), 0), HasSubstr("at least 1 step"));
     EXPECT_THAT(refusal(IdData(Matrix(s.y), Matrix(s.u), 0.25), noisy(s.model)),
-                HasSubstr("Ts = 0.5 s, but the data have 0.25 s"));
+                HasSubstr("its noise is 0.5 s, but the sampling time of the data is 0.25 s"));
     EXPECT_THAT(refusal(IdData(Matrix(s.y), Matrix::Ones(60, 2), 0.5), noisy(s.model)),
                 HasSubstr("The model has 1 input, but the data have 2"));
     EXPECT_THAT(refusal(s.data().range(1, 2), noisy(s.model)), HasSubstr("too few samples for a prediction"));

@@ -92,7 +92,7 @@ TEST(clivsvf, refuses_what_it_cannot_use) {  // oracle: the sentence names metho
                 HasSubstr("cannot be used for estimation: check that the reference belongs to this loop"));
     EXPECT_THAT(refused(data.range(33, 40), {}), HasSubstr("at least 9 samples are needed"));
     EXPECT_THAT(refused(data, {LoopController{TransferFunction(values({1}), values({1}), 0.1)}}),
-                HasSubstr("sampling time 0.1 s"));
+                HasSubstr("the sampling time of the controller is 0.1 s"));
     EXPECT_THAT(thrown_message([&] { clivsvf(data, kPlant, cutoff(-1)); }), HasSubstr("lambda"));
     TransferStructure free = kPlant;
     free.free_delays = true;

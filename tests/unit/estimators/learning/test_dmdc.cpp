@@ -110,7 +110,7 @@ TEST(dmdc, refuses_what_cannot_be_fitted) {
                 HasSubstr("more than 160 snapshots are required, but the data have only 0"));
     IdData twins = simulated_data(system_of_three(), 100, 0, 9);
     twins.experiments[0].y.col(1) = twins.experiments[0].y.col(0);
-    EXPECT_THAT(thrown_message([&] { dmdc(twins, {2, 1}); }), HasSubstr("the data support only 1 direction"));
+    EXPECT_THAT(thrown_message([&] { dmdc(twins, {2, 1}); }), HasSubstr("the data support only 1 singular vector"));
 }
 
 }  // namespace test_dmdc
