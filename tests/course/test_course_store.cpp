@@ -102,7 +102,7 @@ TEST(course_store, reads_times_in_the_zone) {
 TEST(course_store, keeps_versions_and_reports_lateness) {
     const CourseBench bench(3);
     EXPECT_THAT(bench.submit_file("group-01.pdf", small_pdf("one"), "2026-03-01 12:10").output,
-                HasSubstr("v1       in time"));
+                HasSubstr("v1       on time"));
     EXPECT_THAT(bench.submit_file("group-01.pdf", small_pdf("one"), "2026-03-02 12:10").output,
                 HasSubstr("already received"));
     EXPECT_THAT(bench.submit_file("group-01.pdf", small_pdf("two"), "2026-03-01 12:10:01").output,
@@ -110,7 +110,7 @@ TEST(course_store, keeps_versions_and_reports_lateness) {
     EXPECT_THAT(bench.submit_file("Student 2.pdf", "%PDF-1.4\nnothing", "2026-03-01 10:00").output,
                 AllOf(HasSubstr("group-02"), HasSubstr("damaged: ask the group for a readable file")));
     const std::string status = bench.course({"status", "crane", "--at", "2026-03-01 14:00"}).output;
-    EXPECT_THAT(status, HasSubstr("v2 (v1 in time)"));
+    EXPECT_THAT(status, HasSubstr("v2 (v1 on time)"));
     EXPECT_THAT(status, HasSubstr("v1 damaged"));
     EXPECT_THAT(status, HasSubstr("ask for the first version, or drop"));
     EXPECT_THAT(status, HasSubstr("3 groups: 2 submitted, 1 unreadable, 1 missing."));
@@ -143,7 +143,8 @@ TEST(course_store, refuses_bad_input_and_stays_untouched) {
              "2026-03-15 12:00"},
             "the deadline of the reviews (Sun 2026-03-08 12:00) must be after the deadline of the first version");
     refused({"assignment", "b", "--first", "2026-03-09"}, "--first must be a time such as");
-    refused({"assignment", "../b", "--first", "2026-03-09 12:00"}, "must consist of at most 60 letters, digits, hyphens");
+    refused({"assignment", "../b", "--first", "2026-03-09 12:00"},
+            "must consist of at most 60 letters, digits, hyphens");
     refused({"assignment", "talk", "--kind", "talk", "--first", "2026-03-09 12:00", "--final", "2026-03-12 12:00"},
             "a talk has one deadline");
     refused({"assignment", "crane", "--first", "2026-02-01 12:00", "--review", "2026-03-08 12:00", "--final",
@@ -257,7 +258,9 @@ TEST(course_store, refuses_other_versions_of_the_store) {
     EXPECT_THAT(newer.error_output,
                 HasSubstr("a newer version of dynlab created this course (its tables have version 99"));
     bench.bench().shell("mkdir x && sqlite3 x/course.db 'CREATE TABLE other (a)'");
-    EXPECT_THAT(bench.bench().dynlab({"course", "--course", "x", "status"}).error_output, HasSubstr("is not a course"));
+    EXPECT_THAT(
+        bench.bench().dynlab({"course", "--course", "x", "status"}).error_output,
+        HasSubstr("x/course.db: the file is not the database of a course; create a course with dynlab course init"));
     bench.bench().shell("mkdir y && echo 'no database at all, but long enough to be read' > y/course.db");
     EXPECT_THAT(bench.bench().dynlab({"course", "--course", "y", "status"}).error_output, HasSubstr("not a database"));
     EXPECT_THAT(bench.bench().dynlab({"course", "init", "k"}).error_output, HasSubstr("newer dynlab"));
