@@ -200,7 +200,7 @@ TEST(grading, checks_that_cannot_be_read_stop_before_anything_is_written) {
           std::pair("check{id = 'x', test = function() end, pionts = 3}", "points"),
           std::pair("check{id = 'x', test = function() end}\ncheck{id = 'x', test = function() end}", "check \"x\""),
           std::pair("check{id = 'x', rerun = 'hairdryer', test = function() end}", "hairdryer"),
-          std::pair("check{id = 'x', points = 0, test = function() end}", "above 0")}) {
+          std::pair("check{id = 'x', points = 0, test = function() end}", "greater than 0 and at most 1000")}) {
         GradingBench bench(kAnswers, checks, kSolution);
         bench.submit_file("a", kSolution);
         const ChildResult graded = bench.grade();

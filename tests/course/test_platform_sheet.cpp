@@ -106,7 +106,7 @@ TEST_F(platform_sheet, canvas_fills_the_column_of_the_assignment) {
     std::string expected = before;
     expected.replace(expected.find("A,8,,80"), 7, "A,8,9.5,80");
     EXPECT_EQ(canvas.text(), expected);
-    EXPECT_THAT(refusal(before), AllOf(HasSubstr("--assignment must name the column"), HasSubstr("Lab 3 (1233)")));
+    EXPECT_THAT(refusal(before), AllOf(HasSubstr("specify the column to fill in"), HasSubstr("Lab 3 (1233)")));
 }
 
 TEST_F(platform_sheet, what_is_not_recognized_is_named) {

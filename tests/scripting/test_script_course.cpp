@@ -128,9 +128,10 @@ TEST(script_course, takes_short_curve_names_but_no_line_specifications) {
             std::string::npos)
             << look;
     }
-    EXPECT_EQ(error_of("plot({1, 2}, {3, 4}, {color = 1.7})"),
-              "lesson.lua:1: plot: option 'color' must be a nonnegative integer, or a name such as \"red\", but 1.7 "
-              "was given");
+    EXPECT_EQ(
+        error_of("plot({1, 2}, {3, 4}, {color = 1.7})"),
+        "lesson.lua:1: plot: option 'color' must be an integer from 0 to 1000, or a name such as \"red\", but 1.7 "
+        "was given");
 }
 
 TEST(script_course, counts_samples_and_channels_in_whole_numbers) {

@@ -231,7 +231,8 @@ TEST(script_errors, say_what_habits_of_other_languages_lead_to) {
          "lesson.lua:1: plot: \"LineWidth\" is an option of MATLAB's plot; write the options as one table, plot(x, y, "
          "{line_width = 2, color = \"red\", style = \"points\"})"},
         {"plot({1, 2}, {color = 'pinkish'})",
-         "lesson.lua:1: plot: option 'color' must be a nonnegative integer, or one of \"blue\", \"orange\", \"black\", "
+         "lesson.lua:1: plot: option 'color' must be an integer from 0 to 1000, or one of \"blue\", \"orange\", "
+         "\"black\", "
          "\"green\", \"purple\", \"cyan\", \"red\", \"magenta\", \"gray\", \"grey\", but \"pinkish\" was given"},
         {"io.open('x')",
          "lesson.lua:1: unknown function or variable 'io'; read data with load(name), write data with save_csv(path, "

@@ -107,8 +107,8 @@ RunRecord record_of(const GroupChanges& g, const Course& course, const Assignmen
     if (g.first.empty()) say(Message("No first version exists for comparison."));
     if (g.same_files) say(Message("The final version is identical to the first version, byte for byte."));
     if (g.text)
-        say(Message("{} of the words changed: {} deleted, {} inserted; pages: {}.", percent(*g.text), g.text->deleted,
-                    g.text->inserted, pages(g)));
+        say(Message("{} of the words changed: {} deleted, {} inserted; number of pages: {}.", percent(*g.text),
+                    g.text->deleted, g.text->inserted, pages(g)));
     if (!g.compared.empty()) say(g.compared);
     for (const Message& problem : g.problems) say(problem);
     std::string values = "Values can be compared if both versions have a pack with an analysis that runs.\n";

@@ -94,14 +94,14 @@ int color_at(const Call& call, int index) {
         const std::string name = lua_tostring(L, index);
         const auto found = std::ranges::find(kColorNames, name);
         if (found != kColorNames.end()) return static_cast<int>(std::min(found - kColorNames.begin(), kGrey));
-        throw InvalidArgument(
-            "{} must be {}, but \"{}\" was given", option_label("color"),
-            Message("a nonnegative integer, or one of {}", listed_in_quotes({kColorNames.begin(), kColorNames.end()})),
-            name);
+        throw InvalidArgument("{} must be {}, but \"{}\" was given", option_label("color"),
+                              Message("an integer from 0 to 1000, or one of {}",
+                                      listed_in_quotes({kColorNames.begin(), kColorNames.end()})),
+                              name);
     }
     const double number = lua_type(L, index) == LUA_TNUMBER ? lua_tonumber(L, index) : -1;
     if (number < 0 || number != std::floor(number) || number > 1000)
-        refuse_option("color", Message("a nonnegative integer, or a name such as \"red\""), given_value(L, index));
+        refuse_option("color", Message("an integer from 0 to 1000, or a name such as \"red\""), given_value(L, index));
     return static_cast<int>(number);
 }
 

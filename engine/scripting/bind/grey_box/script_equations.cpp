@@ -65,7 +65,7 @@ Message with_remedy(const Message& message) {
     if (kFollowed.contains(name))
         return Message("{}math.{} accepts only numbers, so write {}(...), which also supports symbolic values", place,
                        name, name);
-    return Message("{}math.{} accepts only numbers and does not support symbolic values", place, name);
+    return Message("{}{} accepts only numbers and does not support symbolic values", place, name);
 }
 
 class Tracer {
