@@ -229,9 +229,10 @@ TEST(check_command, a_question_with_several_blanks_is_one_finding) {
         if (issue.at("id") == "answer-open") reported.push_back(issue.at("what"));
     EXPECT_THAT(
         reported,
-        ElementsAre("Question 1 is unanswered: the lines \"YOUR CODE HERE\" and \"Your answer:\" are still in the text.",
-                    "Question 2 is unanswered: the line \"Your answer:\" is still in the text.",
-                    "The line \"Your answer:\" is still in the text."));
+        ElementsAre(
+            "Question 1 is unanswered: the lines \"YOUR CODE HERE\" and \"Your answer:\" are still in the text.",
+            "Question 2 is unanswered: the line \"Your answer:\" is still in the text.",
+            "The line \"Your answer:\" is still in the text."));
 }
 
 // oracle: the reference solution earns all points; percent instead of a ratio loses the points of that check

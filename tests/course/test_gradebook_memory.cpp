@@ -269,8 +269,9 @@ TEST(gradebook_memory, deadlines_know_grace_zones_and_more_time) {
     EXPECT_THAT(book, HasSubstr("2,Zoë Ade,group-2,graded,2,2,0,0,2,\r\n"));
     EXPECT_THAT(book, HasSubstr("3,Ben Lee,Ben Lee,graded,2,2,0,0,2,\r\n"));
     EXPECT_THAT(book, HasSubstr("4,Uma Kepler,Uma Kepler,graded,1.8,2,0.2,0.26,2,"));
-    EXPECT_THAT(work.read("out/results/group-1/feedback.md"),
-                HasSubstr("Your submission was late. Points deducted: 0.2 (received 2026-03-01 18:20 CET, 20 min after"));
+    EXPECT_THAT(
+        work.read("out/results/group-1/feedback.md"),
+        HasSubstr("Your submission was late. Points deducted: 0.2 (received 2026-03-01 18:20 CET, 20 min after"));
     EXPECT_THAT(bench.result("group-1").at("output").get<std::string>(),
                 HasSubstr("The submission was late. Points deducted: 0.20 (" + reason + ")."));
     EXPECT_THAT(bench.grade({"--timezone", "Nowhere/Land", "--again"}).error_output, HasSubstr("Nowhere/Land"));

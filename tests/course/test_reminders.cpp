@@ -55,7 +55,8 @@ TEST_F(reminders, are_messages_with_address_subject_and_text) {
     ASSERT_EQ(mails.rows.size(), 3u);
     EXPECT_EQ(mails.rows[1][1], "k, crane: please submit the missing parts");
     EXPECT_EQ(mails.rows[1][2],
-              "Hello Student 2,\n\nthe following parts of the submission of group-02 for crane are missing (k):\n\n* the first version, "
+              "Hello Student 2,\n\nthe following parts of the submission of group-02 for crane are missing (k):\n\n* "
+              "the first version, "
               "due 2026-03-01 12:00\n\nPlease submit them now, or reply to this message.\n");
     EXPECT_EQ(mails.rows[1][3], "s2");
 }

@@ -34,9 +34,9 @@ TEST(returns, bring_what_is_new_for_whom) {
     done({"review", "assign", "--at", "2026-03-02 10:00"});
     done({"review", "send", "--at", "2026-03-02 11:00"});
     const std::string reported = done({"deliver", "crane", "--out", "monday", "--moodle"});
-    EXPECT_THAT(reported,
-                AllOf(HasSubstr("group-01: 00001-group-01-first-report.txt, report-"),
-                      HasSubstr("Files for 3 groups are in monday"), HasSubstr("no email address is known for group-02")));
+    EXPECT_THAT(reported, AllOf(HasSubstr("group-01: 00001-group-01-first-report.txt, report-"),
+                                HasSubstr("Files for 3 groups are in monday"),
+                                HasSubstr("no email address is known for group-02")));
     EXPECT_EQ(shell("ls monday/*/report-*.pdf | wc -l"), "3\n");
     EXPECT_EQ(
         shell("for f in monday/*/report-*.pdf; do cmp $f k/outbox/crane/to-review/${f#monday/} || echo differs; done"),

@@ -154,8 +154,9 @@ TEST(program_errors, wrong_words_are_reported_in_all_programs_and_nothing_is_wri
     expect_failure(bench.dynlab({"course", "statu", "here"}), 2,
                    "dynlab: dynlab course has no command 'statu'; did you mean 'status'?\n");
     for (const std::string command : {"report", "check"})
-        expect_failure(bench.dynlab({command, "mine/report.md"}), 2,
-                       "dynlab: report.md is the report's text. Give the folder, for example: dynlab " + command + " mine\n");
+        expect_failure(
+            bench.dynlab({command, "mine/report.md"}), 2,
+            "dynlab: report.md is the report's text. Give the folder, for example: dynlab " + command + " mine\n");
     expect_failure(bench.dynlab({"run", "absent.lua"}), 1, "absent.lua");
     expect_failure(bench.dynlab({"report", "miner"}), 1,
                    "unknown lesson or folder 'miner'; did you mean 'mine'? The lessons are ");

@@ -79,7 +79,8 @@ TEST_F(script_load, does_as_the_options_say) {
     EXPECT_THAT(complains("load(\"a.dat\", {units = {\"V\"}})"), HasSubstr("must be a table such as"));
     EXPECT_THAT(complains("load(\"a.dat\", {unit = {}})"), HasSubstr("'unit'"));
     write_mat_file(folder_.path() / "b.mat", {{"y", {Vector{{1, 2}}}}});
-    EXPECT_THAT(complains("load(\"b.mat\", {skip = 1})"), HasSubstr("option 'skip' applies only to tables, not to .mat files"));
+    EXPECT_THAT(complains("load(\"b.mat\", {skip = 1})"),
+                HasSubstr("option 'skip' applies only to tables, not to .mat files"));
 }
 
 TEST_F(script_load, data_objects_take_over_the_units_of_columns) {

@@ -83,8 +83,10 @@ TEST(script_motion, says_what_is_missing) {
         reported("t = t, measured = s"),
         HasSubstr("unknown animated plant ''; the plants are crane, drifting_process, drive, thruster, two_tanks"));
     EXPECT_THAT(reported("rig = 'suspension', t = t, measured = s"), HasSubstr("unknown animated plant 'suspension'"));
-    EXPECT_THAT(reported("rig = 'crane', t = t, measured = {angle = s.angle}"),
-                HasSubstr("option 'measured' does not contain the signal position (m), which the animation of the plant needs"));
+    EXPECT_THAT(
+        reported("rig = 'crane', t = t, measured = {angle = s.angle}"),
+        HasSubstr(
+            "option 'measured' does not contain the signal position (m), which the animation of the plant needs"));
     EXPECT_THAT(reported("rig = 'thruster', t = t, simulated = {force = {1, 2}}"),
                 HasSubstr("the simulated force has 2 values for 201 instants"));
     EXPECT_THAT(reported("rig = 'thruster', t = t, simulated = {force = 'much'}"),

@@ -193,7 +193,8 @@ TEST(script_validation, predict_and_pe_know_the_noise) {
     EXPECT_THAT(error_of(kNoisyData + "predict(d, arx(d, {2, 2, 1}), {k = 0.5})"),
                 HasSubstr("option 'k' must be a whole number of steps"));
     EXPECT_THAT(error_of(kNoisyData + "predict(d, arx(d, {2, 2, 1}), -2)"), HasSubstr("but -2 was given"));
-    EXPECT_THAT(error_of(kNoisyData + "pe(iddata(y, u, 0.5), arx(d, {2, 2, 1}))"), HasSubstr("The sampling times must be equal"));
+    EXPECT_THAT(error_of(kNoisyData + "pe(iddata(y, u, 0.5), arx(d, {2, 2, 1}))"),
+                HasSubstr("The sampling times must be equal"));
 }
 
 TEST(script_validation, resid_tests_predictions_too) {

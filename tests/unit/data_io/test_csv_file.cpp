@@ -126,8 +126,12 @@ TEST_F(csv_file, error_has_the_file_and_the_line_as_arguments) {
 }
 
 TEST_F(csv_file, names_what_is_wrong_above_the_rows) {
-    EXPECT_EQ(complaint(""), ": the file contains no table; expected a header line with the names of the columns, followed by rows of numbers");
-    EXPECT_EQ(complaint("# only: remarks\n"), ": the file contains no table; expected a header line with the names of the columns, followed by rows of numbers");
+    EXPECT_EQ(complaint(""),
+              ": the file contains no table; expected a header line with the names of the columns, followed by rows of "
+              "numbers");
+    EXPECT_EQ(complaint("# only: remarks\n"),
+              ": the file contains no table; expected a header line with the names of the columns, followed by rows of "
+              "numbers");
     EXPECT_EQ(complaint("t,y\n\n"), ": the table has no rows below the header line");
     EXPECT_EQ(complaint("\n# Ts: fast\nt\n1\n"),
               ", line 2: the sampling time Ts must be a positive number of seconds, but \"fast\" was given");

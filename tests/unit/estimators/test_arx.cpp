@@ -170,7 +170,8 @@ TEST(arx, refuses_other_data_and_orders) {
     EXPECT_THAT(refusal(IdData(Matrix(y), Matrix(u), Vector::LinSpaced(100, 0, 1)), kSecond), HasSubstr("regularly"));
     EXPECT_THAT(refusal(IdData(Matrix::Ones(100, 1), Matrix(u), 1), kSecond), HasSubstr("never changes"));
     const IdData rich(Matrix(RandomStream(1).normal(8)), Matrix(RandomStream(2).normal(8)), 1);
-    EXPECT_THAT(refusal(rich.range(1, 7), kSecond), HasSubstr("estimates 4 parameters and needs more equations than parameters"));
+    EXPECT_THAT(refusal(rich.range(1, 7), kSecond),
+                HasSubstr("estimates 4 parameters and needs more equations than parameters"));
     EXPECT_EQ(refusal(rich, kSecond), "");
     EXPECT_THAT(refusal(data, PolynomialOrders::output_error({1}, {1}, {1})), HasSubstr("nf must be zero"));
 }

@@ -35,7 +35,8 @@ TEST(diagnosis, of_models) {  // oracle: poles and zeros written down
     EXPECT_NEAR(plain.models.front().dc_gain(), 2.0 / 3, 1e-15);
     Fit canceling = fit_of(2, 1, values({4, 3, 2, 2.001}));  // (s + 1)(s + 3) over 2 (s + 1.0005)
     describe_models(canceling);
-    EXPECT_THAT(texts_of(canceling.warnings), ElementsAre(HasSubstr("A pole with a real part of -1 and a zero nearly cancel")));
+    EXPECT_THAT(texts_of(canceling.warnings),
+                ElementsAre(HasSubstr("A pole with a real part of -1 and a zero nearly cancel")));
     Fit unstable = fit_of(2, 0, values({-1, 3, 2}));
     describe_models(unstable);
     EXPECT_THAT(texts_of(unstable.warnings), ElementsAre("The model is unstable. Unless the system is also unstable, "

@@ -49,7 +49,8 @@ TEST(simulation_error, that_overflows_is_no_fit_and_is_reported) {  // oracle: e
     EXPECT_EQ(fit.fit_percent[0], -kInfinity);
     EXPECT_EQ(fit.loss, kInfinity);
     EXPECT_EQ(message_text(fit.full_message()),
-              "Found. The simulation of the model diverges on these data, so no fit can be computed. Check the data and the structure.");
+              "Found. The simulation of the model diverges on these data, so no fit can be computed. Check the data "
+              "and the structure.");
 }
 
 TEST(simulation_error, of_a_model_that_explodes_is_infinite) {  // oracle: exp(40 s per second) beyond all numbers

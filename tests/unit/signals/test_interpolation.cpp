@@ -26,9 +26,11 @@ TEST(interpolation, has_no_values_outside_unless_the_ends_are_held) {
     const Vector no_number = Vector::Constant(1, std::numeric_limits<double>::quiet_NaN());
     EXPECT_THROW(interpolate_linearly(kX, kY, no_number, Outside::kHold), InvalidArgument);
     EXPECT_EQ(thrown_message([&] { interpolate_linearly(kX, kY, -no_number); }),
-              "interpolation at NaN is not possible, because x ranges from 0 to 3. To use the values of the end points outside this range, specify outside = \"hold\"");
+              "interpolation at NaN is not possible, because x ranges from 0 to 3. To use the values of the end points "
+              "outside this range, specify outside = \"hold\"");
     EXPECT_EQ(thrown_message([&] { interpolate_linearly(kX, kY, Vector{{3.0000001}}); }),
-              "interpolation at 3.0000001 is not possible, because x ranges from 0 to 3. To use the values of the end points outside this range, specify outside = \"hold\"");
+              "interpolation at 3.0000001 is not possible, because x ranges from 0 to 3. To use the values of the end "
+              "points outside this range, specify outside = \"hold\"");
 }
 
 }  // namespace test_interpolation

@@ -133,7 +133,8 @@ TEST(closed_loop, refuses_what_is_no_loop) {  // oracle: the sentence names the 
     const auto refused = [&](const TransferFunction& plant, const LoopController& controller) {
         return thrown_message([&] { ClosedLoop(plant, controller, kTs); });
     };
-    EXPECT_THAT(refused(G, {TransferFunction(Vector{{3}}, Vector{{1}}, 0.1)}), HasSubstr("sampling time of the controller is 0.1 s"));
+    EXPECT_THAT(refused(G, {TransferFunction(Vector{{3}}, Vector{{1}}, 0.1)}),
+                HasSubstr("sampling time of the controller is 0.1 s"));
     EXPECT_THAT(refused(G, {TransferFunction(Vector{{1, 0}}, Vector{{1}})}),
                 HasSubstr("controller has 1 zero but only 0"));
     EXPECT_THAT(refused(G, {gain, 1}), HasSubstr("needs a sampled controller"));

@@ -168,11 +168,11 @@ TEST(lsim, says_what_is_wrong) {
                   lsim(kSecondOrder, from({1}), 0.1, Hold::kZoh, from({1, 2, 3}));
               }),
               "lsim: the initial state x0 must have 2 values, one for each state, but it has 3");
-    EXPECT_EQ(
-        thrown_message([] {
-            lsim(TransferFunction(from({1}), from({1, 0}), 0.2), from({1}), 0.1);
-        }),
-        "lsim: the sampling time of the discrete-time model is 0.2 s, but the sampling time of the data is 0.1 s. The sampling times must be equal");
+    EXPECT_EQ(thrown_message([] {
+                  lsim(TransferFunction(from({1}), from({1, 0}), 0.2), from({1}), 0.1);
+              }),
+              "lsim: the sampling time of the discrete-time model is 0.2 s, but the sampling time of the data is 0.1 "
+              "s. The sampling times must be equal");
     EXPECT_EQ(thrown_message([] { lsim(kSecondOrder, Vector(), 0.1); }), "lsim: the input has no samples");
     EXPECT_EQ(thrown_message([] {
                   state_variable_filter(from({1, 2}), 1000000, 3, 0.1);

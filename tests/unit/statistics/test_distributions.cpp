@@ -46,7 +46,8 @@ TEST(distributions, chi_squared_refuses_what_has_no_meaning) {
     EXPECT_THROW(normal_half_width(1), InvalidArgument);
     EXPECT_EQ(thrown_message([] { normal_half_width(1.5); }), "A probability must be between 0 and 1, but it is 1.5");
     EXPECT_EQ(thrown_message([] { chi_squared_upper_tail(2, 0); }),
-              "The chi-squared distribution needs a numeric value and positive degrees of freedom, but got 2 with 0 degrees of freedom");
+              "The chi-squared distribution needs a numeric value and positive degrees of freedom, but got 2 with 0 "
+              "degrees of freedom");
     EXPECT_EQ(chi_squared_upper_tail(-1, 3), 1);
     EXPECT_EQ(chi_squared_upper_tail(std::numeric_limits<double>::infinity(), 3), 0);
 }

@@ -224,7 +224,8 @@ TEST(greyest, refuses_what_it_cannot_fit) {  // oracle: definitions
     };
     GreyModel model = pendulum(1, 1, 1);
     model.parameters[0].lower = 2;
-    EXPECT_THAT(refusal(model), HasSubstr("initial value of the parameter a is 1, which is outside the bounds 2 and Inf"));
+    EXPECT_THAT(refusal(model),
+                HasSubstr("initial value of the parameter a is 1, which is outside the bounds 2 and Inf"));
     model.parameters[0].upper = 1;
     EXPECT_THAT(refusal(model), HasSubstr("the lower bound must not exceed the upper bound"));
     model = pendulum(1, 1, 1);
