@@ -207,7 +207,7 @@ TEST_F(script_runner, survives_the_death_of_its_processes) {
     const RunnerNews news = runner.next();
     EXPECT_EQ(news.kind, "ended");
     ASSERT_TRUE(news.record.error);
-    EXPECT_THAT(news.record.error->text(), testing::HasSubstr("has exited"));
+    EXPECT_THAT(news.record.error->text(), testing::HasSubstr("the process that ran the script exited unexpectedly"));
     run(kA + kB + kC);
     EXPECT_EQ(printed("c"), "20\n");
 }
