@@ -153,8 +153,8 @@ TEST_F(preview_french, findings_and_what_is_submitted_are_reported_in_french) {
     EXPECT_TRUE(says(browser, "show-findings", "1 réponse manquante, \\d règles? enfreintes?.*, 0 sur 3 points", 120))
         << browser.evaluate("return document.getElementById('show-findings').innerText");
     browser.click("#show-findings");
-    for (const char* words : {"Réponses manquantes", "gain \\(nombre\\)", "À corriger", "La question 1 est ouverte",
-                              "Vérifications de la leçon.: 0 sur 3 points"})
+    for (const char* words : {"Réponses manquantes", "gain \\(nombre\\)", "À corriger",
+                              "La question 1 est sans réponse", "Vérifications de la leçon.: 0 sur 3 points"})
         EXPECT_TRUE(says(browser, "findings", words)) << words;
     expect_no_english(all_words(browser, "#findings"));
 
