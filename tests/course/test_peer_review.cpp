@@ -166,6 +166,22 @@ TEST(peer_review, reviews_that_come_after_the_release_are_not_called_blocked) {
                 ::testing::Not(HasSubstr("not released yet")));
 }
 
+// oracle: what was done with the student
+TEST(peer_review, the_history_of_a_student_leaves_out_texts_that_contain_the_id) {
+    const Workbench work;
+    work.write("names.csv", "id,name,group\n2026,Ada Ek,group-01\n");
+    const auto course = [&](std::vector<std::string> words) {
+        words.insert(words.begin(), {"course", "--course", "c"});
+        return work.dynlab(words);
+    };
+    CourseBench::expect_done(work.dynlab({"course", "init", "c", "--name", "Signals 2026"}));
+    CourseBench::expect_done(course({"import", "names.csv"}));
+    CourseBench::expect_done(course({"assignment", "talk", "--kind", "talk", "--first", "2027-03-01 12:00"}));
+    CourseBench::expect_done(course({"extend", "talk", "2026", "2027-03-02 12:00", "--reason", "illness"}));
+    EXPECT_THAT(course({"history"}).output, HasSubstr("course \"Signals 2026\" made"));
+    EXPECT_THAT(course({"who", "2026"}).output, AllOf(HasSubstr("illness"), Not(HasSubstr("Signals 2026"))));
+}
+
 // oracle: equality of stores
 TEST(peer_review, exports_and_imports_an_equal_store) {
     CourseBench bench(4, 1);

@@ -367,7 +367,7 @@ std::optional<Message> write_class_results(const ClassResults& results, const At
         summarize(results.pdf);
     } catch (const EnvironmentError& error) {
         if (!results.pdf) throw;
-        summarize(false);  // the marks of a class do not depend on its typeset summary
+        summarize(false);
         return Message("the summary is in summary.md, because its PDF cannot be created: {}", error.message());
     }
     return std::nullopt;

@@ -38,7 +38,8 @@ std::vector<std::string> counted_instead(const ClassResults& results);
 /// Writes gradebook.csv (a row for each student of the roster, or each submission if there is no roster) and the
 /// summary (report_templates/class_summary.md, set in a sandbox): numbers, histogram, success of each check,
 /// submissions that need attention. Missing marks by hand get rows in marks.csv (manual_marks.h); summary.json has the
-/// numbers for programs (grading/class_statistics.h).
+/// numbers for programs (grading/class_statistics.h). If LaTeX cannot set the summary, writes it as Markdown and
+/// returns a note that says why: the marks of a class do not depend on it.
 std::optional<Message> write_class_results(const ClassResults& results, const Attention& attention);
 
 }  // namespace dynlab::inline course

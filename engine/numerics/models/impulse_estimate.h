@@ -17,9 +17,9 @@ struct ImpulseEstimate {
     Vector std;       ///< standard errors
     Vector null_std;  ///< what they would be if g were zero: a band around zero that only a real response leaves
     double noise_variance = 0;
-    Matrix covariance;                ///< of g; empty where a method knows none
-    std::optional<Index> first;       ///< lag of the first response that is no chance
-    std::optional<double> dead_time;  ///< in the unit of t; empty where no response exceeds the noise
+    Matrix covariance;                ///< of g; empty if the method does not provide it
+    std::optional<Index> first;       ///< lag of the first significant response
+    std::optional<double> dead_time;  ///< in the unit of t; empty if no response exceeds the noise
     Message message;
     std::vector<Message> warnings;
 };
