@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <sstream>
 #include <string>
 
 #include "scripting/interpreter/catalog.h"
@@ -49,6 +50,18 @@ TEST(help_prose, has_american_spelling) {
         const bool is_name =
             word == "color" || find_function(word) != nullptr;  // an option or a function, outside of code
         if (!is_name) ADD_FAILURE() << page_and_word;
+    }
+}
+
+// Such a line within a sentence is typeset as an empty item of a numbered list.
+TEST(help_prose, no_line_is_a_number_and_a_period) {
+    for (const HelpPage& page : help_pages()) {
+        std::istringstream text{std::string(page.text)};
+        for (std::string line; std::getline(text, line);) {
+            const std::size_t first = std::min(line.find_first_not_of(' '), line.size());
+            const std::size_t after = std::min(line.find_first_not_of("0123456789", first), line.size());
+            EXPECT_FALSE(after > first && line.substr(after) == ".") << page.name << ": " << line;
+        }
     }
 }
 
