@@ -61,8 +61,11 @@ int import_people(const CourseArguments& where, const std::string& file, bool no
                                                fmt::join(change.unknown_columns, ", ")));
     if (!change.short_ids.empty())
         std::cerr << terminal_text(fmt::format("dynlab: {}: {}\n", file, message_text(change.short_ids)));
-    std::cout << fmt::format("{} students: {} new, {} changed, {} moved to another group; {} new groups.\n",
-                             change.students, change.new_students, change.changed, change.moved, change.new_groups);
+    std::cout << message_text(Message("{}: {} new, {} changed, {} moved to another group; {}.",
+                                      plural(change.students, "{} student", "{} students"), change.new_students,
+                                      change.changed, change.moved,
+                                      plural(change.new_groups, "{} new group", "{} new groups")))
+              << '\n';
     if (!change.absent.empty())
         std::cout << terminal_text(
             fmt::format("In the course, but not in this file (not changed; drop GROUP removes a group): {}\n",

@@ -99,8 +99,8 @@ int set_mark(const CourseArguments& where, const MarkArgs& args) {
     give_mark(course, a, mark, time_of(course, args.at));
     transaction.commit();
     std::cout << terminal_text(
-        a.is_lab() ? fmt::format("{}: {} has {} points for {}; dynlab course grade {} writes the feedback.\n", a.name,
-                                 args.who, *mark.points, mark.item, a.name)
+        a.is_lab() ? fmt::format("{}: {} has {} {} for {}; dynlab course grade {} writes the feedback.\n", a.name,
+                                 args.who, *mark.points, *mark.points == 1 ? "point" : "points", mark.item, a.name)
                    : fmt::format("{}: {} has {} percent for its {}.\n", a.name, args.who, *mark.points,
                                  mark.item == kWholeItem ? "work" : mark.item));
     return kDone;

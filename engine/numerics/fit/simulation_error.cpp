@@ -18,7 +18,7 @@ constexpr Index kLagsOfErrors = 20;     // beyond the delay
 constexpr Index kMaxLags = 200;         // the last ones, where the delay is long
 constexpr double kFarBeyondChance = 4;  // standard deviations of chi-squared
 constexpr double kFastChanges = 0.1;    // squares of the errors' differences, relative to those of the errors
-constexpr double kSingular = 1e-6;      // of the input's power
+constexpr double kMinInputPower = 1e-6;      // of the input's power
 
 /// The errors of a fit, experiment by experiment.
 struct FitErrors {
@@ -53,7 +53,7 @@ bool follow_input(const FitErrors& errors, const IdData& data, double delay) {
     Matrix gram(lags, lags);
     for (Index i = 0; i < lags; ++i)
         for (Index j = 0; j < lags; ++j) gram(i, j) = with_itself[std::abs(i - j)];
-    gram.diagonal().array() += kSingular * with_itself[0];
+    gram.diagonal().array() += kMinInputPower * with_itself[0];
     const double variance = errors.all.squaredNorm() / static_cast<double>(errors.all.size());
     if (!(variance > 0 && with_itself[0] > 0)) return false;
     const double sum = with_errors.dot(solve_semidefinite(gram, with_errors)) / variance;
