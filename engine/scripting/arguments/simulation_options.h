@@ -45,6 +45,8 @@ inline constexpr OptionEntry kConfidenceOption = {
 inline constexpr ArgumentEntry kDataSetArgument = {"data", ValueKind::kData,
                                                    about("data object with the inputs and outputs of the model")};
 inline constexpr ArgumentEntry kModelArgument = {"G", ValueKind::kModel, about("model")};
+inline constexpr ArgumentEntry kOneChannelModel = {
+    "G", ValueKind::kModel, about("linear model with one input and one output, or number (a static gain)")};
 inline constexpr std::array kDataAndModel = {kDataSetArgument, kModelArgument};
 
 /// The options InitialState and Offset of functions that simulate a model on data.

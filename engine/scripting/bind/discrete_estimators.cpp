@@ -55,9 +55,9 @@ constexpr std::array kDiscreteOutputErrorArguments = {
 constexpr std::array kBoxJenkinsArguments = {
     kOneOutputData,
     ArgumentEntry{"orders", ValueKind::kOrders,
-                  about("orders {nb, nc, nd, nf, nk}: numbers of coefficients of B, C, D and F (C, D and F without the "
-                        "leading 1), and input delay nk in samples. Specify nk = 1 for systems without direct "
-                        "feedthrough. With several inputs, nb, nf and nk are tables")}};
+                  about("nb coefficients of B, nc, nd and nf coefficients of C, D and F without the leading 1, and an "
+                        "input delay of nk samples. Specify nk = 1 for systems without direct feedthrough. With "
+                        "several inputs, nb, nf and nk are tables")}};
 
 /// The entry of an order vector that is one number for all inputs.
 int only_value(const std::vector<int>& entry, const OrderEntry& what) {

@@ -40,7 +40,7 @@ constexpr OptionEntry kIdprocOptions[] = {
 constexpr std::array kSsOptions = {kModelPeriod};
 constexpr OptionTable kTfTables[] = {kTfOptions}, kIdprocTables[] = {kIdprocOptions}, kSsTables[] = {kSsOptions};
 
-constexpr std::array kModelAlone = {kModelArgument};
+constexpr std::array kModelAlone = {kOneChannelModel};
 constexpr ArgumentEntry kTfArguments[] = {
     {"num", ValueKind::kVector,
      about(

@@ -32,8 +32,8 @@ constexpr std::array kNoisyArguments = {
     ArgumentEntry{
         "orders", ValueKind::kOrders,
         about(
-            "orders {nb, nc, nd, nf, nk}: numbers of coefficients of B, C, D and F (C, D and F without the leading 1), "
-            "and input delay nk in samples. nb is at most nf + 1. With several inputs, nb, nf and nk are tables")}};
+            "nb coefficients of B (at most nf + 1), nc, nd and nf coefficients of C, D and F without the leading 1, "
+            "and an input delay of nk samples. With several inputs, nb, nf and nk are tables")}};
 constexpr std::array kNoisyTransferArguments = {kOneOutputData, kPoleCount, kZeroCount};
 
 int noise_order(const std::vector<int>& entry, const OrderEntry& what) {

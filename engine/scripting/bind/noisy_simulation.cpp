@@ -54,7 +54,7 @@ constexpr ArgumentEntry kSpreadArguments[] = {
     kInputPeriod,
     kInputData};
 constexpr ArgumentEntry kValuesArguments[] = {
-    kModelArgument,
+    kOneChannelModel,
     {"w", ValueKind::kVector, about("frequencies in rad/s; by default chosen from the poles and zeros")}};
 
 /// What a model is simulated with: (G, u, Ts, options) or (G, data, options).

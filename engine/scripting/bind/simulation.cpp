@@ -67,7 +67,7 @@ constexpr std::array kSvfArguments = {
     ArgumentEntry{"x", ValueKind::kVector, about("vector of N samples")},
     ArgumentEntry{"n", ValueKind::kCount, about("order of the filter, 1 to 50")},
     ArgumentEntry{"lambda", ValueKind::kNumber, about("cutoff frequency of the filter in rad/s")}};
-constexpr std::array kFreqrespArguments = {kOneModel, kDrawnFrequencies};
+constexpr std::array kFreqrespArguments = {kOneChannelModel, kDrawnFrequencies};
 constexpr std::array kTimeResponseArguments = {kOneModel, kDrawnInstants, kDrawnModels};
 constexpr std::array kNyquistArguments = {kDrawnModels, kDrawnFrequencies};
 constexpr std::array kBodeArguments = {
