@@ -31,8 +31,8 @@ constexpr std::array kProcsrivcArguments = {
                   about("data object with one input and one output, one or several experiments, regularly or "
                         "irregularly sampled; the intersample behavior is \"zoh\" or \"foh\"")},
     ArgumentEntry{"structure", ValueKind::kProcess,
-                  about("structure: the letter P and the number of poles (1 to 3), followed by any of D (delay), I "
-                        "(integrator), Z (zero) and U (underdamped), such as \"P2DU\"; or a result of idproc")}};
+                  about("letter P and number of poles (1 to 3), followed by any of D (delay), I (integrator), Z (zero) "
+                        "and U (underdamped), such as \"P2DU\"; or a result of `idproc` without parameter values")}};
 
 template <StepTestResult (*kMethod)(const IdData&)>
 int read_step_response(Call& call) {
