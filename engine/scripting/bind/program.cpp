@@ -149,7 +149,7 @@ constexpr FunctionEntry kProgramFunctions[] = {
     {"require", "program", "require(name) -> value",
      "Run NAME.lua in the folder of the script only once, and return its value", guarded<require_file>},
     {"run", "program", "run(path)", "Run a script at the prompt and keep its variables", guarded<run_file>},
-    {"who", "program", "who()", "List the variables at the prompt", guarded<who>},
+    {"who", "program", "who()", "List the variables and their values", guarded<who>},
     {"tic", "program", "tic()", "Start the stopwatch", guarded<tic>},
     {"toc", "program", "toc() -> seconds", "Elapsed time since tic()", guarded<toc>},
     {"clock", "program", "clock() -> seconds", "Elapsed time since the start of the script", guarded<clock>},
