@@ -79,11 +79,14 @@ int main(int argc, char** argv) {
     // What starts programs comes first: later this process is large, and a copy of it (fork) takes 30 ms more and
     // counts in the memory of what it starts.
     const std::vector<std::pair<std::string, void (*)(Report&)>> groups{
-        {"program", measure_program},     {"grading", measure_grading},   {"course", measure_course},
-        {"cluster", measure_cluster},     {"live", measure_live},         {"workbench", measure_workbench},
-        {"site", measure_site},           {"numerics", measure_numerics}, {"estimators", measure_estimators},
-        {"irregular", measure_irregular}, {"lua", measure_lua},           {"searches", measure_searches},
-        {"advice", measure_advice},       {"grey_box", measure_grey_box}};
+        {"program", measure_program},     {"grading", measure_grading},
+        {"course", measure_course},       {"cluster", measure_cluster},
+        {"live", measure_live},           {"workbench", measure_workbench},
+        {"site", measure_site},           {"web", measure_web},
+        {"numerics", measure_numerics},   {"estimators", measure_estimators},
+        {"irregular", measure_irregular}, {"lua", measure_lua},
+        {"searches", measure_searches},   {"advice", measure_advice},
+        {"grey_box", measure_grey_box}};
     const std::vector<std::string> named(argv + 1, argv + argc);
     for (const std::string& name : named) {
         if (std::any_of(groups.begin(), groups.end(), [&](const auto& group) { return group.first == name; })) continue;

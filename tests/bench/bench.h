@@ -34,6 +34,7 @@ void measure_course(Report& report);
 void measure_live(Report& report);       ///< needs Chromium and its driver
 void measure_workbench(Report& report);  ///< as well
 void measure_site(Report& report);       ///< as well
+void measure_web(Report& report);        ///< as well, and the engine for browsers (scripts/build web) and Node
 void measure_lua(Report& report);
 void measure_searches(Report& report);
 void measure_advice(Report& report);
