@@ -61,6 +61,8 @@ TEST(script_vectors, know_the_inverse_the_eigenvalues_and_the_transform) {
 TEST(script_vectors, delays_are_written_as_exponentials) {
     EXPECT_EQ(printed("local s = tf('s')\nlocal G = exp(-2*s)/(s + 1)\nprint(G.IODelay, dcgain(G), #pole(G))"),
               "2\t1\t1\n");
+    EXPECT_EQ(printed("local s = tf('s')\nlocal G = exp(-0*s)/(s + 1)\nprint(G.IODelay, dcgain(exp(0*s)), #pole(G))"),
+              "0\t1\t1\n");
     EXPECT_NE(error_of("local s = tf('s')\nprint(exp(2*s))").find("for models, exp supports only a delay"),
               std::string::npos);
 }

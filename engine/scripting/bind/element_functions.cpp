@@ -38,12 +38,13 @@ int absolute(Call& call) {
     return apply<std::fabs, Operation::kAbs>(call);
 }
 
-/// Td of a model -Td s.
+/// Td of a model -Td s; 0 of the zero model, which is -0 s.
 std::optional<double> delay_of(const Model& model) {
     const TransferFunction& G = model.G;
     if (!model.single_channel()) return std::nullopt;
-    if (!G.continuous() || G.den().size() != 1 || G.num().size() != 2 || G.num()[1] != 0 || G.delay() != 0)
-        return std::nullopt;
+    if (!G.continuous() || G.den().size() != 1 || G.delay() != 0) return std::nullopt;
+    if (G.num().isZero(0)) return 0.0;
+    if (G.num().size() != 2 || G.num()[1] != 0) return std::nullopt;
     return -G.num()[0] / G.den()[0];
 }
 
