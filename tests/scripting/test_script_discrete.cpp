@@ -41,6 +41,15 @@ TEST(script_discrete, models_work_like_all_others) {
         EXPECT_THAT(shown, HasSubstr(part));
 }
 
+TEST(script_discrete, present_of_equation_error_methods_names_the_measured_past_values) {
+    for (const char* call : {"arx(data, {2, 2, 1})", "iv4(data, {2, 2, 1})", "armax(data, {2, 2, 1, 1})"})
+        EXPECT_THAT(printed(kDataSet + "y = y + 0.01*randn(#y)\ndata = iddata(y, u, 0.2)\npresent(" + call + ")"),
+                    HasSubstr("The fit refers to the simulation from the measured past values, without an offset.\n"))
+            << call;
+    EXPECT_THAT(printed(kDataSet + "present(oe(data, {2, 2, 1}, {InitialState = 'estimate', Offset = 'none'}))"),
+                HasSubstr("The fit refers to the simulation from an estimated initial state, without an offset.\n"));
+}
+
 TEST(script_discrete, several_inputs) {
     EXPECT_EQ(
         printed(kTwoInputs + "local G = oe(data, {{1, 1}, {1, 1}, {1, 1}}, {Tol = 1e-10})\n"

@@ -1,5 +1,7 @@
 #include "scripting/objects/fit_model.h"
 
+#include <algorithm>
+
 #include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/objects/data_object.h"
@@ -81,6 +83,12 @@ ReportFields basic_fields(const Fit& fit) {
             {{"fits", fit.fit_percent}}};
 }
 
+/// Whether nothing is assumed or estimated of the past, as in arx, iv4 and armax.
+bool continues_measured_values(const Fit& fit) {
+    return fit.orders && fit.start.state == InitialState::kEstimate && !fit.start.offset &&
+           std::ranges::all_of(fit.orders->nf, [](int order) { return order == 0; });
+}
+
 /// From which state the fit was simulated, and the offset of each output (experiment by experiment) in it.
 Message simulation_of(const Fit& fit) {
     constexpr Index kMaxShown = 6;
@@ -95,6 +103,8 @@ Message simulation_of(const Fit& fit) {
                        : Message("The operating point was removed from the data.");
         if (few) return Message("The fit refers to the simulation {} ({}).", description(fit.start), offsets);
     }
+    if (continues_measured_values(fit))
+        return Message("The fit refers to the simulation from the measured past values, without an offset.");
     return fit.start.offset
                ? Message("The fit refers to the simulation {}.", description(fit.start))
                : Message("The fit refers to the simulation {}, without an offset.", description(fit.start));
