@@ -119,6 +119,17 @@ TEST(help, lays_out_the_forms_of_a_page) {
     EXPECT_EQ(filled("one two three", 7, 2), "one\n  two\n  three");
 }
 
+TEST(help, guides_and_subjects_begin_with_their_summary) {
+    const auto all = functions();
+    EXPECT_THAT(help_text("checks", all),
+                StartsWith("checks\n======\n\nHow the check file of a lesson grades answers.\n\nThe check file"));
+    EXPECT_THAT(help_text("guide-first-hour", all), HasSubstr("\n\nThe first hour.\n\n"));
+    for (const HelpPage& page : help_pages())
+        EXPECT_THAT(help_text(std::string(page.name), all),
+                    AllOf(Not(HasSubstr("\nsubject: ")), Not(HasSubstr("\nguide: "))))
+            << page.name;
+}
+
 TEST(help, numbered_items_and_formulas_keep_their_lines) {
     EXPECT_EQ(laid_out("Steps:\n\n1. Make a folder\n   first.\n2. Write.\n\n10. Read all of it.\n\nEnd\n", 14),
               "Steps:\n\n1. Make a\n   folder\n   first.\n2. Write.\n\n10. Read\n    all of it.\n\nEnd\n");

@@ -281,6 +281,17 @@ std::string with_row(const std::string& page, const FunctionEntry& function) {
     return text + std::string(kHeading) + items + (items.empty() || rest.starts_with("- ") ? "" : "\n") + rest;
 }
 
+/// The text of a guide or subject, whose third line ("guide: the first hour") becomes a sentence ("The first hour.").
+std::string with_subject(const HelpPage& page) {
+    std::string text(page.text);
+    const auto begin = text.find("\n\n") + 2, end = text.find('\n', begin);
+    const std::string_view line = std::string_view(text).substr(begin, end - begin);
+    if (!line.starts_with("guide: ") && !line.starts_with("subject: ")) return text;
+    std::string sentence = subject_of(page) + ".";
+    sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
+    return text.replace(begin, end - begin, sentence);
+}
+
 [[noreturn]] void refuse_topic(const std::string& name, const FunctionList& functions) {
     const auto near = nearest_word(name, help_names(functions));
     if (near) throw InvalidArgument("no help for '{}'; did you mean '{}'?", name, *near);
@@ -296,7 +307,7 @@ std::optional<HelpPage> find_help_page(std::string_view name) {
 }
 
 std::string page_text(const HelpPage& page, const FunctionEntry* function) {
-    return function == nullptr ? std::string(page.text) : with_row(std::string(page.text), *function);
+    return function == nullptr ? with_subject(page) : with_row(std::string(page.text), *function);
 }
 
 std::string subject_of(const HelpPage& page) {

@@ -18,8 +18,8 @@ struct HelpPage {
 /// All pages, sorted by name, as reference/*.md and reference/guides/*.md are.
 std::span<const HelpPage> help_pages();
 std::optional<HelpPage> find_help_page(std::string_view name);
-/// The page of a function with the parts that its row declares (summary, syntax, arguments, options); the text of a
-/// guide or subject (nullptr) unchanged.
+/// The page of a function with the parts that its row declares (summary, syntax, arguments, options); for a guide or
+/// subject (nullptr) the text, with its subject as a sentence.
 std::string page_text(const HelpPage& page, const FunctionEntry* function);
 /// The text after "guide: " or "subject: " in the third line of a guide or subject.
 std::string subject_of(const HelpPage& page);
