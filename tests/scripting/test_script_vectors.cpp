@@ -58,6 +58,13 @@ TEST(script_vectors, know_the_inverse_the_eigenvalues_and_the_transform) {
               "lesson.lua:1: det: argument 1 (A) must be a square matrix, but it is 1 x 2");
 }
 
+TEST(script_vectors, where_names_its_arguments_if_their_lengths_differ) {
+    for (const char* c : {"vector{1, 1}", "gt({1, 1}, 0)"})
+        EXPECT_EQ(error_of("where(" + std::string(c) + ", vector{1, 2, 3}, 0)"),
+                  "lesson.lua:1: where: c has 2 values, but a has 3");
+    EXPECT_EQ(error_of("where(-1*vector{1, 1}, 0, vector{1})"), "lesson.lua:1: where: c has 2 values, but b has 1");
+}
+
 TEST(script_vectors, delays_are_written_as_exponentials) {
     EXPECT_EQ(printed("local s = tf('s')\nlocal G = exp(-2*s)/(s + 1)\nprint(G.IODelay, dcgain(G), #pole(G))"),
               "2\t1\t1\n");
