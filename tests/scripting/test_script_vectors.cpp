@@ -58,6 +58,15 @@ TEST(script_vectors, know_the_inverse_the_eigenvalues_and_the_transform) {
               "lesson.lua:1: det: argument 1 (A) must be a square matrix, but it is 1 x 2");
 }
 
+TEST(script_vectors, a_table_of_named_entries_is_not_a_vector) {
+    EXPECT_EQ(
+        error_of("vector{x = 3, a = 1}"),
+        "lesson.lua:1: vector: argument 1 (values) must be a vector of numbers, but the table contains only named "
+        "entries: a, x");
+    EXPECT_NE(error_of("mean{a = 1}").find("the table contains only named entries: a"), std::string::npos);
+    EXPECT_EQ(printed("print(#vector{})"), "0\n");
+}
+
 TEST(script_vectors, where_names_its_arguments_if_their_lengths_differ) {
     for (const char* c : {"vector{1, 1}", "gt({1, 1}, 0)"})
         EXPECT_EQ(error_of("where(" + std::string(c) + ", vector{1, 2, 3}, 0)"),

@@ -65,6 +65,16 @@ Index joined_size(lua_State* L, int index, Index entries, const Message& label) 
     return total;
 }
 
+/// Throws for a table of named entries, such as the variables of a file; an empty table is an empty vector.
+void refuse_named_entries(lua_State* L, int index, const Message& label) {
+    std::vector<std::string> names;
+    collect_text_keys(L, index, names);
+    if (names.empty()) return;
+    std::sort(names.begin(), names.end());
+    throw InvalidArgument("{} must be a vector of numbers, but the table contains only named entries: {}", label,
+                          listed(names));
+}
+
 /// Throws for a table without numbered entries: an empty one, or for example a table of named variables.
 [[noreturn]] void refuse_without_entries(lua_State* L, int index, const Message& label) {
     std::vector<std::string> names;
@@ -163,6 +173,7 @@ MaskBlock* to_mask(lua_State* L, int index) {
 void make_vector_of_table(lua_State* L, int index, const Message& label) {
     index = lua_absindex(L, index);
     const auto entries = static_cast<Index>(lua_rawlen(L, index));
+    if (entries == 0) refuse_named_entries(L, index, label);
     const Index total = joined_size(L, index, entries, label);
     double* target = push_vector(L, total).data();
     for (Index i = 1; i <= entries; ++i) {
