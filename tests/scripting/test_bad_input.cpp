@@ -174,6 +174,7 @@ TEST(bad_input, data_are_checked_when_they_are_made) {
          "instant 3 is 2 and the previous instant is 2"},
         {"iddata({1, 2, 3}, {1, 0, 1}, nil, {SamplingInstants = {0, 2}})", "3 samples but the time vector has 2"},
         {"iddata({1, 2}, {1}, 1)", "the output has 2 samples but the input has 1"},
+        {"iddata(nil, nil, 1)", "y and u are both nil; specify at least one of them"},
         {"iddata({}, {}, 1)", "must have rows or columns, but the table is empty"},
         {"iddata({theta = y, t = u}, u, 1)", "the table contains t, theta: use one of these, such as data.t"},
         {"iddata(y, u, {0, 0.1, 0.3})", "iddata(y, u, nil, {SamplingInstants = t})"},

@@ -290,6 +290,8 @@ int make_iddata(Call& call) {
             "{} must be a number of seconds, but instants were given; for irregularly sampled data, write iddata(y, u, "
             "nil, {SamplingInstants = t})",
             argument_label(3, "Ts"));
+    if (call.count() > 0 && !call.given(1) && !call.given(2))
+        throw InvalidArgument("y and u are both nil; specify at least one of them");
     const bool inputs_only = !call.given(1) && call.given(2);
     const Matrix y = inputs_only ? Matrix(call.matrix(2, "u").rows(), 0) : Matrix(call.matrix(1, "y"));
     const Matrix u = signals(call, 2, "u", y.rows());
