@@ -47,9 +47,13 @@ Vector visited_edges(const IdData& data, const HammersteinOptions& options, std:
     if (values && (values->size() != edges.size() || *values != edges)) {
         edges = *values;
         warnings.push_back(
-            Message("The input has only {} distinct values, which are the bin edges. Between these values, the "
-                    "characteristic is unknown and linearly interpolated.",
-                    edges.size()));
+            options.breakpoints.size() == 0
+                ? Message("The input has only {} distinct values, which are the bin edges. Between these values, the "
+                          "characteristic is unknown and linearly interpolated.",
+                          edges.size())
+                : Message("The input has only {} distinct values, which are the bin edges; {} is ignored. Between "
+                          "these values, the characteristic is unknown and linearly interpolated.",
+                          edges.size(), OptionName{"breakpoints"}));
     }
     Vector visits = Vector::Zero(edges.size());
     for (const Experiment& experiment : data.experiments)

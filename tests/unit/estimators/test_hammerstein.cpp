@@ -164,10 +164,14 @@ TEST(hammerstein, an_input_of_few_values_has_these_as_edges) {
         EXPECT_LT(
             (result.characteristic->levels - characteristic(result.characteristic->breakpoints)).cwiseAbs().maxCoeff(),
             1e-6);
-        EXPECT_THAT(message_text(result.full_message()), HasSubstr("The input has only 3 distinct values"));
+        EXPECT_THAT(
+            message_text(result.full_message()),
+            HasSubstr("The input has only 3 distinct values, which are the bin edges; `breakpoints` is ignored"));
     }
     const auto as_asked = hammerstein(data, without_zero().structure, at_edges(values({-1, 0, 1})));
-    EXPECT_THAT(message_text(as_asked.full_message()), Not(HasSubstr("only 3 values")));
+    EXPECT_THAT(message_text(as_asked.full_message()), Not(HasSubstr("distinct values")));
+    const auto by_bins = hammerstein(data, without_zero().structure, at_edges({}));
+    EXPECT_THAT(message_text(by_bins.full_message()), HasSubstr("3 distinct values, which are the bin edges. Between"));
 }
 
 // oracle: second route, coe; two points lie on a line, so the model is linear with an offset
