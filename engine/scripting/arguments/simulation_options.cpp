@@ -22,6 +22,14 @@ Hold hold_option(const Options& options, Hold fallback) {
     return options.has("hold") ? static_cast<Hold>(options.choice(kHoldOption)) : fallback;
 }
 
+std::vector<std::string> labels_option(const Options& options, std::size_t count) {
+    std::vector<std::string> labels = options.texts("labels");
+    if (!labels.empty() && labels.size() != count)
+        throw InvalidArgument("option 'labels' has {} for {}; specify one string per model",
+                              plural(labels.size(), "{} string", "{} strings"), plural(count, "{} model", "{} models"));
+    return labels;
+}
+
 double confidence_option(const Options& options) {
     const double level = options.number("confidence", 0.99);
     if (level > 0 && level < 1) return level;

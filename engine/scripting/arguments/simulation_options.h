@@ -55,6 +55,8 @@ CompareOptions compare_options(const Options& options, InitialState otherwise = 
 /// The option hold: how inputs go on between samples.
 Hold hold_option(const Options& options, Hold fallback);
 
+/// The option labels: no label, or one for each of `count` models.
+std::vector<std::string> labels_option(const Options& options, std::size_t count);
 /// The option confidence: a probability between 0 and 1.
 double confidence_option(const Options& options);
 

@@ -96,13 +96,8 @@ SpectralModels comparison_arguments(const Call& call) {
 }
 
 void name_models(const Options& options, std::vector<NamedModel>& models) {
-    const std::vector<std::string> labels = options.texts("labels");
-    if (labels.empty()) return;
-    if (labels.size() != models.size())
-        throw InvalidArgument("option 'labels' has {} for {}; specify one string per model",
-                              plural(labels.size(), "{} string", "{} strings"),
-                              plural(models.size(), "{} model", "{} models"));
-    for (std::size_t i = 0; i < models.size(); ++i) models[i].name = Message::verbatim(labels[i]);
+    const std::vector<std::string> labels = labels_option(options, models.size());
+    for (std::size_t i = 0; i < labels.size(); ++i) models[i].name = Message::verbatim(labels[i]);
 }
 
 void print_message(const Call& call, const Message& message, const std::vector<Message>& warnings) {

@@ -146,22 +146,13 @@ std::vector<NamedModel> models_to_draw(const Call& call, int& next) {
     return models;
 }
 
-/// Option labels: none, or one for each of the curves.
-std::vector<std::string> given_labels(const Options& options, std::size_t count) {
-    std::vector<std::string> labels = options.texts("labels");
-    if (!labels.empty() && labels.size() != count)
-        throw InvalidArgument("option 'labels' has {} for {}; specify one string per model",
-                              plural(labels.size(), "{} string", "{} strings"), plural(count, "{} model", "{} models"));
-    return labels;
-}
-
 Message usual_name(const Call& call, int index) {
     const std::string method = method_of_model(call, index);
     return method.empty() ? Message("model {}", index) : Message::verbatim(method);
 }
 
 void name_models(const Call& call, const Options& options, std::vector<NamedModel>& models) {
-    const std::vector<std::string> labels = given_labels(options, models.size());
+    const std::vector<std::string> labels = labels_option(options, models.size());
     for (std::size_t i = 0; i < models.size(); ++i) {
         if (!labels.empty())
             models[i].name = Message::verbatim(labels[i]);
@@ -238,7 +229,7 @@ int draw_bode(Call& call) {
     refuse_option_texts(call, next);
     call.at_most(next);
     const Options options(call, next, kRegionTables);
-    const std::vector<std::string> labels = given_labels(options, static_cast<std::size_t>(count));
+    const std::vector<std::string> labels = labels_option(options, static_cast<std::size_t>(count));
     const std::optional<double> level = confidence_level(options);
     std::vector<NamedModel> models;
     std::vector<NamedResponse> responses;

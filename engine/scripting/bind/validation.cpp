@@ -139,8 +139,11 @@ Figure comparison_figure(const IdData& data, const std::vector<ModelOutputs>& mo
 
 /// Draws measured and simulated, with k predicted, output for the models from argument `first` on.
 int draw_comparison(Call& call, const IdData& data, int first, int options_index) {
+    if (!holds_model(call, first)) wrong_argument(call.state(), first, "G", with_article("model"));
     const Options options(call, options_index, kCompareTables);
-    const std::vector<std::string> labels = options.texts("labels");
+    int count = 1;
+    while (holds_model(call, first + count)) ++count;
+    const std::vector<std::string> labels = labels_option(options, static_cast<std::size_t>(count));
     const std::optional<Index> steps = steps_option(options, std::nullopt);
     std::vector<ModelOutputs> models;
     for (int i = first; holds_model(call, i); ++i) {
@@ -149,7 +152,6 @@ int draw_comparison(Call& call, const IdData& data, int first, int options_index
             steps ? model_outputs(name, prediction_argument(call, i, data, {steps, compare_options(options)}))
                   : simulated_model_outputs(name, comparison_argument(call, i, data, options)));
     }
-    if (models.empty()) wrong_argument(call.state(), first, "G", with_article("model"));
     return give_figure(call, comparison_figure(data, models));
 }
 
@@ -158,7 +160,7 @@ int compare_models(Call& call) {
     int next = 2;
     while (holds_model(call, next)) ++next;
     call.at_most(next);
-    read_steps_as_option(call, next);
+    if (next > 2) read_steps_as_option(call, next);
     return draw_comparison(call, data, 2, next);
 }
 
