@@ -25,6 +25,17 @@ std::string said(const std::string& code) {
     return printed(kResponse + code);
 }
 
+TEST(script_frequency, options_of_nonparametric_methods_are_checked_before_their_messages) {
+    for (const char* method : {"etfe", "spa", "cra", "impulseest"})
+        for (const char* option : {"confidence = 1", "labels = 'a'"})
+            EXPECT_THAT(said("rng(1)\nlocal u = prbs(6, 4)\nlocal d = iddata(u + 0.1*randn(#u), u, 0.1)\n" +
+                             std::string(method) + "(d, {" + option + "})"),
+                        AllOf(StartsWith("ERROR"), HasSubstr("option '")))
+                << method << ", " << option;
+    EXPECT_THAT(said("local u = prbs(6, 4)\netfe(iddata(u, u, 0.1), {quiet = true, confidence = 1})"),
+                AllOf(StartsWith("ERROR"), HasSubstr("option 'confidence'")));
+}
+
 TEST(script_frequency, responses_have_their_fields) {
     EXPECT_EQ(said("print(F)"), "idfrd: 50 frequencies from 0.1 to 10 rad/s, variances unknown\n");
     EXPECT_EQ(said("assert(#F == 50 and #F.w == 50 and F.variance == nil and F.std == nil and F.Ts == 0)\n"

@@ -108,13 +108,14 @@ void print_message(const Call& call, const Message& message, const std::vector<M
 
 int give_spectral(const Call& call, const Options& options, SpectralModels& read, const SpectralEstimate& estimate,
                   const char* method, bool smoothed) {
+    const double confidence = confidence_option(options);
     name_models(options, read.models);
     for (NamedModel& model : read.models) model.beside = {read.data.Ts, inter_sample_of(read.data.hold)};
     if (options.flag("quiet", false)) {
         lua_pushnil(call.state());
     } else {
         print_message(call, estimate.message, estimate.warnings);
-        give_figure(call, spectral_plot(estimate, Message::verbatim(method), read.models, confidence_option(options)));
+        give_figure(call, spectral_plot(estimate, Message::verbatim(method), read.models, confidence));
     }
     push_object(call.state(), frequency_data_of(estimate, read.data, method, smoothed));
     return 2;
