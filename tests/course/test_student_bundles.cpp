@@ -63,6 +63,7 @@ TEST(student_bundles, are_in_the_language_that_is_asked_for) {
     const std::string readme = work.shell("unzip -p fr.zip 03_crane_README.md").output;
     EXPECT_THAT(readme, HasSubstr("    dynlab pack 03_crane\n"));
     EXPECT_THAT(readme, HasSubstr("apt install"));
+    EXPECT_THAT(readme, HasSubstr("dynlab help guide-first-hour\n"));
     EXPECT_THAT(readme, Not(HasSubstr("Write your analysis")));
 }
 

@@ -202,12 +202,13 @@ TEST(help, finds_functions_by_terms_of_other_programs) {
         EXPECT_THAT(help_search(term, all), HasSubstr("  " + std::string(name) + " ")) << term;
 }
 
-/// The names in calls of help that a text advises.
+/// The names in calls of help, and in commands `dynlab help NAME`, that a text advises.
 std::vector<std::string> advised_in(const std::string& text) {
-    static const std::regex advice(R"re(help\(\\?"([^"\\]+)\\?"\))re");
+    static const std::regex call(R"re(help\(\\?"([^"\\]+)\\?"\))re"), command("dynlab help ([a-z][a-z_0-9-]*)");
     std::vector<std::string> names;
-    for (std::sregex_iterator found(text.begin(), text.end(), advice), end; found != end; ++found)
-        names.push_back((*found)[1].str());
+    for (const std::regex& advice : {call, command})
+        for (std::sregex_iterator found(text.begin(), text.end(), advice), end; found != end; ++found)
+            names.push_back((*found)[1].str());
     return names;
 }
 

@@ -41,7 +41,7 @@ std::string readme_of(const Lesson& lesson, const BundleOptions& options) {
         Message("Write your analysis in analysis.lua and your text in report.md. Submit the zip file that dynlab pack "
                 "creates."));
     if (!options.sheet.empty()) lines.push_back(Message("The tasks are in {}.", options.sheet.filename().string()));
-    lines.push_back(Message("To read the first page of the manual, run: dynlab help start"));
+    lines.push_back(Message("To read the first page of the manual, run: dynlab help guide-first-hour"));
     std::string text;
     for (const Message& line : lines) text += message_text(line, reader) + "\n";
     return text;
