@@ -172,7 +172,9 @@ TEST(notebook, lines_that_read_as_markers_come_back_and_are_reported) {
         const bool is_marker = std::string(line).substr(0, 3) != "---";
         EXPECT_EQ(script.losses.size(), is_marker ? 1u : 0u);
         if (is_marker) {
-            EXPECT_THAT(test::texts_of(script.losses).front(), HasSubstr("a.ipynb: cell 1, line 2: "));
+            EXPECT_THAT(test::texts_of(script.losses).front(),
+                        HasSubstr("a.ipynb: cell 1, line 2: \"" + std::string(line) +
+                                  "\" would start a cell of the script, so the script contains \"-" + line + "\""));
         }
     }
 }

@@ -248,8 +248,8 @@ void add_losses_of_code(const std::string& code, int cell, const std::filesystem
         ++number;
         if (!is_cell_marker(line)) continue;
         losses.push_back(
-            placed({name}, Message("cell {}, line {}: \"{}\" would become \"{}\" in the script and start a cell; "
-                                   "inside a string, write it in another way, such as \"--\" .. \" %%\"",
+            placed({name}, Message("cell {}, line {}: \"{}\" would start a cell of the script, so the script contains "
+                                   "\"{}\"; inside a string, write it in another way, such as \"--\" .. \" %%\"",
                                    cell, number, line, script_line(line, false))));
     }
 }
