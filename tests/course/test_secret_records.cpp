@@ -88,6 +88,7 @@ TEST(secret_records, messages_quote_neither_hidden_records_nor_answers_of_reruns
     EXPECT_EQ(work.shell("grep -rl 'sample' out/results out/summary.md out/gradebook.csv").output, "");
     // The instructor reads what it was.
     const std::string log = work.read("out/logs/quoting/log.txt");
+    EXPECT_THAT(log, HasSubstr(" s in the sandbox"));
     for (const char* where : {"error: checks.lua:2", "hidden: checks.lua:7"})
         EXPECT_THAT(log, HasSubstr("check " + std::string(where) +
                                    ": dcgain: argument 1 (G) must be a model, but the string \"sample "));

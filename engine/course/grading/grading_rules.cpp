@@ -279,7 +279,7 @@ std::vector<std::vector<GradingRules::CheckAttempt>> GradingRules::check_attempt
         GradedSubmission submission_result{{}, together.reason, together.seconds};
         if (answered) submission_result = together.output->judged[i];
         works[i].log +=
-            fmt::format("checks: {:.3f} s in their box{}\n", submission_result.seconds,
+            fmt::format("checks: {:.3f} s in the sandbox{}\n", submission_result.seconds,
                         submission_result.reason.empty() ? "" : "; " + message_text(submission_result.reason));
         if (submission_result.checks.size() != checks_.size()) {
             all[i] = separate_check_attempts(works[i]);
