@@ -91,6 +91,26 @@ TEST(grade_export, platforms_without_known_students_are_reported) {
                                         Not(HasSubstr("canvas-grades.csv was not written"))));
 }
 
+// oracle: the roster, which dynlab grade stores
+TEST(grade_export, uses_the_roster_of_the_results_unless_another_is_given) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    Workbench& work = bench.bench();
+    bench.submit_file("g1", kSolution);
+    bench.submit_file("Anna Lovelace", kSolution);
+    work.write("roster.csv",
+               "id,name,group,email,canvas\n1001,Student One,g1,one@u.example,31\n"
+               "1002,Anna Lovelace,,anna@u.example,\n");
+    bench.grade({"--roster", "roster.csv"});
+    work.dynlab({"export-grades", "out"});
+    EXPECT_THAT(work.read("out/handed_back/mail.csv"),
+                AllOf(HasSubstr("1001,Student One,g1,one@u.example,results/g1/feedback.md,yes,"),
+                      HasSubstr("1002,Anna Lovelace,,anna@u.example,results/")));
+    EXPECT_THAT(work.read("out/handed_back/canvas-grades.csv"), HasSubstr("Student One,31,1001,one@u.example,,2"));
+    work.write("other.csv", "id,name,group,email\n1001,Student One,g1,uno@u.example\n");
+    work.dynlab({"export-grades", "out", "--roster", "other.csv"});
+    EXPECT_THAT(work.read("out/handed_back/mail.csv"), HasSubstr("1001,Student One,g1,uno@u.example,"));
+}
+
 // oracle: the French of the program, that of the lesson, and the decimal comma
 TEST(grade_export, comments_are_in_the_language_of_the_feedback) {
     GradingBench bench(kAnswers,

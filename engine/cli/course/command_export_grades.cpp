@@ -47,7 +47,10 @@ void add_export_grades(CLI::App& app, Action& action) {
     command->add_option("OUT", args->marks, "Folder that dynlab grade --out wrote")
         ->required()
         ->check(CLI::ExistingDirectory);
-    command->add_option("--roster", args->roster, "Roster, for addresses and the numbers of the platforms")
+    command
+        ->add_option(
+            "--roster", args->roster,
+            "Roster, for groups, addresses and the numbers of the platforms. Default: the roster in OUT/course.")
         ->type_name("CSV")
         ->check(CLI::ExistingFile);
     command

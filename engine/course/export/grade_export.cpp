@@ -15,6 +15,7 @@
 #include "course/intake/owners.h"
 #include "course/intake/roster.h"
 #include "course/issues/lesson_reader.h"
+#include "course/office/folder_grading.h"
 #include "data_io/text_table.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
@@ -70,9 +71,9 @@ std::vector<MarkedStudent> marked_students(const GradeExportRequest& request) {
     const TextTable table = read_text_table(file);
     const auto column = [&](const char* name) { return needed_column(table, name, file); };
     std::map<std::string, Student> known;
-    if (request.roster)
-        for (const Roster roster(*request.roster); const Student& student : roster.students())
-            known[student.id] = student;
+    const std::vector<Student> students =
+        request.roster ? Roster(*request.roster).students() : stored_roster(request.marks);
+    for (const Student& student : students) known[student.id] = student;
     std::map<std::string, int> senders;  // by submission; one of several students gives no number
     for (const auto& row : table.rows) ++senders[row[column("submission")]];
     std::vector<MarkedStudent> all;

@@ -12,7 +12,7 @@ namespace dynlab::inline course {
 struct GradeExportRequest {
     std::filesystem::path marks;                     ///< the OUT of dynlab grade
     std::string assignment;                          ///< its column in Canvas's gradebook, such as "Lab 4 (1234)"
-    std::optional<std::filesystem::path> roster;     ///< for addresses and the platforms' numbers
+    std::optional<std::filesystem::path> roster;     ///< for addresses and numbers; default: stored in `marks`
     std::optional<std::filesystem::path> worksheet;  ///< as downloaded from Moodle or Canvas, to be filled in
     bool all = false;                                ///< feedback that was delivered before goes into the zip, too
 };

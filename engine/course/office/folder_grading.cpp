@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "course/corrections/corrections.h"
 #include "course/office/deadline_import.h"
+#include "course/store/groups.h"
 #include "data_io/values/json_values.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
@@ -145,6 +146,15 @@ Assignment wanted_assignment(Course& course, const FolderRequest& request) {
 
 bool is_graded_folder(const fs::path& out) {
     return fs::exists(out / kCourse / "course.db");
+}
+
+std::vector<Student> stored_roster(const fs::path& out) {
+    if (!is_graded_folder(out)) return {};
+    Course course(out / kCourse);
+    std::vector<Student> students = students_of(course);
+    for (Student& student : students)
+        if (student.group == student.id) student.group.clear();
+    return students;
 }
 
 FolderGrading::FolderGrading(FolderRequest request) : request_(std::move(request)) {
