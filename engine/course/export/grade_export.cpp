@@ -229,6 +229,7 @@ class Outbox {
             MarkedStudent& student = students_[static_cast<std::size_t>(found)];
             (moodle ? student.moodle : student.canvas) = person.number;
         }
+        note_other_maximum();
         if (unknown > 0)
             result_.notes.push_back(plural(unknown, "{} row of {} matches no submission and was not changed",
                                            "{} rows of {} match no submission and were not changed",
@@ -237,6 +238,21 @@ class Outbox {
             if (has_marks(students_[i]) && !rows_.contains(i))
                 result_.complaints.push_back(Message("{} has marks, but no row in {}; enter the marks manually",
                                                      students_[i].shown(), request_.worksheet->string()));
+    }
+
+    /// The sheet gets points, whatever its maximum is.
+    void note_other_maximum() {
+        const std::optional<double> maximum = sheet_->maximum();
+        for (const MarkedStudent& student : students_) {
+            const std::optional<double> possible = number_in_cell(student.possible);
+            if (!maximum || !possible || !has_marks(student) || *possible == *maximum) continue;
+            result_.notes.push_back(
+                Message("the maximum grade in {} is {}, but {} points are possible. dynlab enters points and does not "
+                        "scale them; set the maximum grade on the platform to {}",
+                        request_.worksheet->string(), points_number(*maximum), points_number(*possible),
+                        points_number(*possible)));
+            return;
+        }
     }
 
     /// What dynlab grade --answers left for all; empty where it did not.
