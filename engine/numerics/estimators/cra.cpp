@@ -72,7 +72,7 @@ CorrelationAnalysis cra(const IdData& data, const CraOptions& options) {
     impulse.null_std = Vector::Constant(lags + 1, std::sqrt(output / (count * input[0])));
     impulse.std = impulse.null_std;
     impulse.message = Message("Impulse response over {} by correlation analysis.", plural(lags, "{} lag", "{} lags"));
-    read_dead_time(impulse, data.Ts, data.hold, normal_half_width(options.confidence));
+    read_dead_time(impulse, data.Ts, data.time_unit, data.hold, normal_half_width(options.confidence));
     const double limit = normal_half_width(options.confidence) / std::sqrt(count);
     const double worst = input.tail(lags).cwiseAbs().maxCoeff() / input[0];
     if (worst > std::max(2 * limit, 0.2))

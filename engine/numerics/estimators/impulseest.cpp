@@ -131,7 +131,7 @@ RegressedResponse impulseest(const IdData& data, const ImpulseestOptions& option
     const Message lags = plural(n, "{} lag", "{} lags");
     estimate.message = options.smooth ? Message("Impulse response over {} by regularized least squares.", lags)
                                       : Message("Impulse response over {} by ordinary least squares.", lags);
-    read_dead_time(estimate, data.Ts, data.hold, normal_half_width(options.confidence));
+    read_dead_time(estimate, data.Ts, data.time_unit, data.hold, normal_half_width(options.confidence));
     const Index tail = std::max<Index>(n / 10, 1);
     if (estimate.response.tail(tail).cwiseAbs().maxCoeff() > 0.1 * estimate.response.cwiseAbs().maxCoeff())
         estimate.warnings.push_back(Message(

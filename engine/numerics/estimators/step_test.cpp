@@ -97,8 +97,8 @@ StepTestResult step_first_order(const IdData& data) {
     result.points = {settling};
     result.model = TransferFunction(Vector::Constant(1, K), Vector{{T, 1.0}});
     const Message reading =
-        Message("The 5 % settling time of the smoothed response is {} s, which equals three time constants.",
-                significant(settling_time, kDigits));
+        Message("The 5 % settling time of the smoothed response is {} {}, which equals three time constants.",
+                significant(settling_time, kDigits), data.time_unit);
     result.message =
         highest_rise(step_data) > 1.05
             ? sentences({reading, Message("The response overshoots: a second-order model would be better.")})
@@ -122,8 +122,9 @@ StepTestResult step_second_order(const IdData& data) {
     result.parameters << K, z, w0;
     result.points = {peak};
     result.model = TransferFunction(Vector::Constant(1, K * w0 * w0), Vector{{1.0, 2 * z * w0, w0 * w0}});
-    result.message = Message("The first overshoot is {} % of the change of the output, {} s after the step.",
-                             significant(100 * D1, kDigits), significant(peak.time - step_data.step_time, kDigits));
+    result.message =
+        Message("The first overshoot is {} % of the change of the output, {} {} after the step.",
+                significant(100 * D1, kDigits), significant(peak.time - step_data.step_time, kDigits), data.time_unit);
     return result;
 }
 
@@ -139,9 +140,9 @@ StepTestResult step_delayed(const IdData& data) {
     result.parameters << K, T, D;
     result.points = {{"28.3 %", t1, output_at(step_data, rise1)}, {"63.2 %", t2, output_at(step_data, rise2)}};
     result.model = TransferFunction(Vector::Constant(1, K), Vector{{T, 1.0}}, 0, D);
-    const Message reading =
-        Message("The smoothed response reaches 28.3 % and 63.2 % of its change {} s and {} s after the step.",
-                significant(t1 - step_data.step_time, kDigits), significant(t2 - step_data.step_time, kDigits));
+    const Message reading = Message(
+        "The smoothed response reaches 28.3 % and 63.2 % of its change {} and {} {} after the step.",
+        significant(t1 - step_data.step_time, kDigits), significant(t2 - step_data.step_time, kDigits), data.time_unit);
     result.message =
         D == 0 ? sentences({reading, Message("The response shows no delay: use step_first_order.")}) : reading;
     return result;

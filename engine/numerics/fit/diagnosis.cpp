@@ -73,8 +73,8 @@ void check_transfer_data(const std::string& method, const IdData& data, const Tr
     for (const TransferChannel& channel : structure.channels)
         for (std::size_t e = 0; e < data.experiments.size(); ++e)
             if (channel.delay >= data.duration(e))
-                throw InvalidArgument("{}: the delay of {} s is not shorter than the data, which last {} s", method,
-                                      channel.delay, data.duration(e));
+                throw InvalidArgument("{}: the delay of {} {} is not shorter than the data, which last {} {}", method,
+                                      channel.delay, data.time_unit, data.duration(e), data.time_unit);
     for (Index input = 0; input < data.input_count(); ++input) {
         const bool alone = data.input_count() == 1;
         const bool rests = in_all_experiments(data, [&](const Experiment& e) {
@@ -129,9 +129,9 @@ DelayRange delay_range(const IdData& data, const FitOptions& options) {
     const double shortest = shortest_experiment(data);
     const double largest = options.largest_delay.value_or(std::max(options.least_delay, shortest / 4));
     if (largest >= shortest)
-        throw InvalidArgument("{} must be shorter than the data, which last {} s, but is {} s",
-                              OptionName{"largest_delay"}, shortest, largest);
-    return {options.least_delay, largest};
+        throw InvalidArgument("{} must be shorter than the data, which last {} {}, but is {} {}",
+                              OptionName{"largest_delay"}, shortest, data.time_unit, largest, data.time_unit);
+    return {options.least_delay, largest, data.time_unit};
 }
 
 namespace {
@@ -317,15 +317,17 @@ std::vector<std::string> undetermined_parameters(const std::vector<std::string>&
 namespace {
 
 /// At an edge of the range.
-Message delay_at(const OptionName& edge, double value, bool largest, const std::optional<ChannelPlace>& channel) {
+Message delay_at(const OptionName& edge, double value, const std::string& unit, bool largest,
+                 const std::optional<ChannelPlace>& channel) {
     if (channel && largest)
-        return Message("The delay from input {} to output {} is {} = {} s, at the limit of the search: increase {}.",
-                       channel->input, channel->output, edge, value, edge);
+        return Message("The delay from input {} to output {} is {} = {} {}, at the limit of the search: increase {}.",
+                       channel->input, channel->output, edge, value, unit, edge);
     if (channel)
-        return Message("The delay from input {} to output {} is {} = {} s, at the limit of the search: decrease {}.",
-                       channel->input, channel->output, edge, value, edge);
-    return largest ? Message("The delay is {} = {} s, at the limit of the search: increase {}.", edge, value, edge)
-                   : Message("The delay is {} = {} s, at the limit of the search: decrease {}.", edge, value, edge);
+        return Message("The delay from input {} to output {} is {} = {} {}, at the limit of the search: decrease {}.",
+                       channel->input, channel->output, edge, value, unit, edge);
+    return largest
+               ? Message("The delay is {} = {} {}, at the limit of the search: increase {}.", edge, value, unit, edge)
+               : Message("The delay is {} = {} {}, at the limit of the search: decrease {}.", edge, value, unit, edge);
 }
 
 }  // namespace
@@ -350,9 +352,9 @@ void warn_of_doubtful_parameters(Fit& fit, SimplerModel simpler) {
 void warn_of_delay(Fit& fit, double delay, const DelayRange& range, const std::optional<ChannelPlace>& channel) {
     const double edge = 1e-9 * range.largest;
     if (delay >= range.largest - edge && range.largest > range.least)
-        fit.warnings.push_back(delay_at(OptionName{"largest_delay"}, range.largest, true, channel));
+        fit.warnings.push_back(delay_at(OptionName{"largest_delay"}, range.largest, range.unit, true, channel));
     else if (delay <= range.least + edge && range.least > 0)
-        fit.warnings.push_back(delay_at(OptionName{"least_delay"}, range.least, false, channel));
+        fit.warnings.push_back(delay_at(OptionName{"least_delay"}, range.least, range.unit, false, channel));
     else if (delay <= edge && range.largest > 0 && std::ranges::none_of(fit.fit_percent, explains_little))
         fit.warnings.push_back(
             channel ? Message("No delay from input {} to output {} was detected: use a model without delay.",

@@ -30,7 +30,8 @@ void check_transient(const std::string& method, const IdData& data, const Fit& f
 double shortest_experiment(const IdData& data);  ///< s, of all experiments
 
 struct DelayRange {
-    double least = 0, largest = 0;  ///< s
+    double least = 0, largest = 0;
+    std::string unit = "s";  ///< of both: the time unit of the data
 };
 /// The search range of a free delay: least_delay and largest_delay; without the latter a quarter of the shortest
 /// experiment. Throws InvalidArgument for a largest delay that is not shorter than the shortest experiment.

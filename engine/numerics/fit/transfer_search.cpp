@@ -230,9 +230,10 @@ void withdraw_errors_of_rivals(Fit& fit, const IdData& data_set, const DelayScan
                 names.push_back(fit.names[static_cast<std::size_t>(p)]);
         withdraw_errors(fit, names);
         fit.warnings.push_back(Message(
-            "A delay of {} s explains the data nearly as well, so the standard errors of {} are not available. Use "
+            "A delay of {} {} explains the data nearly as well, so the standard errors of {} are not available. Use "
             "your knowledge of the plant, and narrow the range of delays ({}, {}).",
-            significant(scan.delays[i], 3), listed(names), OptionName{"least_delay"}, OptionName{"largest_delay"}));
+            significant(scan.delays[i], 3), data_set.time_unit, listed(names), OptionName{"least_delay"},
+            OptionName{"largest_delay"}));
         return;
     }
 }

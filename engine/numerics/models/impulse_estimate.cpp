@@ -14,7 +14,7 @@ constexpr Index kSamplesPerLag = 3;
 
 }  // namespace
 
-void read_dead_time(ImpulseEstimate& estimate, double Ts, Hold hold, double half_width) {
+void read_dead_time(ImpulseEstimate& estimate, double Ts, const std::string& unit, Hold hold, double half_width) {
     const Vector& g = estimate.response;
     const auto beyond = [&](Index i) { return std::abs(g[i]) > half_width * estimate.null_std[i]; };
     for (Index i = 0; i + 1 < g.size() && !estimate.first; ++i)
@@ -28,10 +28,11 @@ void read_dead_time(ImpulseEstimate& estimate, double Ts, Hold hold, double half
     const Index first = *estimate.first, dead = std::max<Index>(first - (hold == Hold::kZoh ? 1 : 0), 0);
     const double first_time = static_cast<double>(first) * Ts, dead_time = static_cast<double>(dead) * Ts;
     const Message found =
-        dead == 0 ? Message("The response first exceeds the noise at lag {} ({} s); no dead time was detected.", first,
-                            first_time)
-                  : Message("The response first exceeds the noise at lag {} ({} s); the dead time is about {} s ({}).",
-                            first, first_time, dead_time, plural(dead, "{} sample", "{} samples"));
+        dead == 0
+            ? Message("The response first exceeds the noise at lag {} ({} {}); no dead time was detected.", first,
+                      first_time, unit)
+            : Message("The response first exceeds the noise at lag {} ({} {}); the dead time is about {} {} ({}).",
+                      first, first_time, unit, dead_time, unit, plural(dead, "{} sample", "{} samples"));
     estimate.dead_time = dead_time;
     estimate.message = sentences({estimate.message, found});
 }

@@ -27,8 +27,8 @@ struct ImpulseEstimate {
 /// Finds the first lag that together with the next lies beyond `half_width` of its null_std on the same side, and adds
 /// the resulting dead time to the message. A held input needs one lag to act, so the dead time is about first - 1
 /// samples. The response to a linearly interpolated input begins one lag earlier, so the dead time is about first
-/// samples.
-void read_dead_time(ImpulseEstimate& estimate, double Ts, Hold hold, double half_width);
+/// samples. `unit` is the time unit of Ts.
+void read_dead_time(ImpulseEstimate& estimate, double Ts, const std::string& unit, Hold hold, double half_width);
 
 /// Returns `lags` if positive, otherwise the smaller of 70 and a fifth of the shortest experiment. Throws
 /// InvalidArgument, with a message that begins with `caller`, for fewer than three samples per lag.

@@ -17,12 +17,12 @@ constexpr double kChance = 6.635;  // 99 % quantile of chi-square with one degre
 constexpr double kFarSteps = 2, kFarErrors = 3;
 constexpr Index kProfiledSamples = 50'000;  // of longer data, their beginning
 
-void check_options(const DelaySearchOptions& options) {
+void check_options(const IdData& data, const DelaySearchOptions& options) {
     const FitOptions& estimation = options.estimation;
     if (estimation.largest_delay && !(*estimation.largest_delay > estimation.least_delay))
-        throw InvalidArgument("{} must be greater than {} ({} s), but {} s was given: the range contains no delay",
+        throw InvalidArgument("{} must be greater than {} ({} {}), but {} {} was given: the range contains no delay",
                               OptionName{"largest_delay"}, OptionName{"least_delay"}, estimation.least_delay,
-                              *estimation.largest_delay);
+                              data.time_unit, *estimation.largest_delay, data.time_unit);
 }
 
 /// The loss of a model that does not answer at all, which is there at every delay.
@@ -88,18 +88,21 @@ Message result_of(const DelaySearch& search, const IdData& data) {
     const Number delay = known_to(search.delay, search.std), std = significant(search.std, 2);
     const Number fit = significant(search.candidate.fit_percent, 4);
     const Message orders = orders_of(search.candidate);
+    const std::string& unit = data.time_unit;
     if (!data.regular())
         return std::isfinite(search.std)
-                   ? Message("The delay is {} s, with a standard error of {} s, in a model with {} and a fit of {} %.",
-                             delay, std, orders, fit)
-                   : Message("The delay is {} s in a model with {} and a fit of {} %.", delay, orders, fit);
+                   ? Message(
+                         "The delay is {} {}, with a standard error of {} {}, in a model with {} and a fit of {} %.",
+                         delay, unit, std, unit, orders, fit)
+                   : Message("The delay is {} {} in a model with {} and a fit of {} %.", delay, unit, orders, fit);
     const Number samples = known_to(search.delay / data.Ts, search.std / data.Ts);
-    return std::isfinite(search.std) ? Message(
-                                           "The delay is {} s ({} samples), with a standard error of {} s, in a model "
-                                           "with {} and a fit of {} %.",
-                                           delay, samples, std, orders, fit)
-                                     : Message("The delay is {} s ({} samples) in a model with {} and a fit of {} %.",
-                                               delay, samples, orders, fit);
+    return std::isfinite(search.std)
+               ? Message(
+                     "The delay is {} {} ({} samples), with a standard error of {} {}, in a model "
+                     "with {} and a fit of {} %.",
+                     delay, unit, samples, std, unit, orders, fit)
+               : Message("The delay is {} {} ({} samples) in a model with {} and a fit of {} %.", delay, unit, samples,
+                         orders, fit);
 }
 
 Message explanation_of(const DelaySearch& search, const IdData& data, bool reported) {
@@ -110,9 +113,9 @@ Message explanation_of(const DelaySearch& search, const IdData& data, bool repor
     const Vector& errors = search.candidate.estimate.std;
     if (search.rival && !std::isinf(errors[errors.size() - 1]))  // else a warning of the estimate says so
         all.push_back(
-            Message("A delay of {} s explains the data nearly as well. Inspect the loss as a function of the delay, "
+            Message("A delay of {} {} explains the data nearly as well. Inspect the loss as a function of the delay, "
                     "and use your knowledge of the plant.",
-                    *search.rival));
+                    *search.rival, data.time_unit));
     for (const Message& warning : search.candidate.estimate.warnings) all.push_back(warning);
     return sentences(std::move(all));
 }
@@ -127,7 +130,7 @@ Message late_input_sentence(const IdData& data) {
 }
 
 DelaySearch search_delay(const IdData& data, const DelaySearchOptions& options) {
-    check_options(options);
+    check_options(data, options);
     OrderSelectionOptions selecting;
     selecting.threads = options.threads;
     selecting.progress = options.progress;

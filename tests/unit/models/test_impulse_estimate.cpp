@@ -19,20 +19,20 @@ ImpulseEstimate estimate_of(const Vector& response) {
 
 TEST(impulse_estimate, the_first_response_is_followed_by_another_of_its_sign) {   // oracle: the definition
     ImpulseEstimate late = estimate_of(Vector{{0.1, 9.0, -0.2, 5.0, 6.0, 2.0}});  // a lone peak at lag 1
-    read_dead_time(late, 0.1, Hold::kZoh, 3);
+    read_dead_time(late, 0.1, "s", Hold::kZoh, 3);
     EXPECT_EQ(late.first, 3);
     EXPECT_THAT(message_text(late.message), HasSubstr("the dead time is about 0.2 s (2 samples)"));
     EXPECT_NEAR(late.dead_time.value_or(-1), 0.2, 1e-12);
     ImpulseEstimate on_lines = estimate_of(late.response);  // half of a triangle has passed at its lag
-    read_dead_time(on_lines, 0.1, Hold::kFoh, 3);
-    EXPECT_THAT(message_text(on_lines.message), HasSubstr("the dead time is about 0.3 s (3 samples)"));
+    read_dead_time(on_lines, 0.1, "min", Hold::kFoh, 3);
+    EXPECT_THAT(message_text(on_lines.message), HasSubstr("the dead time is about 0.3 min (3 samples)"));
     EXPECT_NEAR(on_lines.dead_time.value_or(-1), 0.3, 1e-12);
     ImpulseEstimate changing = estimate_of(Vector{{5.0, -5.0, -6.0, 0.0}});
-    read_dead_time(changing, 0.1, Hold::kZoh, 3);
+    read_dead_time(changing, 0.1, "s", Hold::kZoh, 3);
     EXPECT_EQ(changing.first, 1);
     EXPECT_THAT(message_text(changing.message), HasSubstr("no dead time was detected"));
     ImpulseEstimate none = estimate_of(Vector{{1.0, -2.0, 2.0, 1.0}});
-    read_dead_time(none, 0.1, Hold::kZoh, 3);
+    read_dead_time(none, 0.1, "s", Hold::kZoh, 3);
     EXPECT_FALSE(none.first);
     EXPECT_FALSE(none.dead_time);
     EXPECT_THAT(message_text(none.message), HasSubstr("The response never exceeds"));

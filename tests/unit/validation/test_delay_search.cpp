@@ -40,10 +40,14 @@ TEST(delay_search, delay_trap_is_avoided_from_default_settings) {  // oracle: th
 
 TEST(delay_search, delays_between_samples_are_found) {  // oracle: the simulated system
     const TransferFunction G(Vector{{3}}, Vector{{1, 2, 5}}, 0, 0.437);
-    const DelaySearch search = search_delay(simulated_data(G, prbs(7, 12), 0.05, 20, 1));
+    IdData data = simulated_data(G, prbs(7, 12), 0.05, 20, 1);
+    data.time_unit = "min";
+    const DelaySearch search = search_delay(data);
     EXPECT_NEAR(search.delay, 0.437, 4 * search.std);
     EXPECT_LT(search.std, 0.02);
-    EXPECT_THAT(message_text(search.explanation), HasSubstr("samples), with a standard error"));
+    EXPECT_THAT(
+        message_text(search.explanation),
+        testing::ContainsRegex("is [0-9.]+ min \\([0-9.]+ samples\\), with a standard error of [0-9.]+ min, in"));
     // reported to the second digit of its error: no further from the value than half of that digit, and no digit more
     const std::string reported = message_text(search.explanation).substr(std::string("The delay is ").size());
     const std::string number = reported.substr(0, reported.find(' '));

@@ -45,8 +45,8 @@ Samples samples_of(const RecursiveName& method, const IdData& data, double delay
     if (delay > 0) {
         const SplitDelay split = data.regular() ? split_delay(delay, data.Ts) : SplitDelay{0, delay};
         if (split.rest > 0)
-            throw InvalidArgument("{}: the delay must be a whole number of sampling times, but it is {} s", method.name,
-                                  delay);
+            throw InvalidArgument("{}: the delay must be a whole number of sampling times, but it is {} {}",
+                                  method.name, delay, data.time_unit);
         late = split.samples;
     }
     return {data_set.y.col(0),       data_set.u.col(0),   data_set.t, data.Ts, late,
