@@ -249,7 +249,7 @@ void add_losses_of_code(const std::string& code, int cell, const std::filesystem
         if (!is_cell_marker(line)) continue;
         losses.push_back(
             placed({name}, Message("cell {}, line {}: \"{}\" would start a cell of the script, so the script contains "
-                                   "\"{}\"; inside a string, write it in another way, such as \"--\" .. \" %%\"",
+                                   "\"{}\". Inside a string, write it in another way, such as \"--\" .. \" %%\"",
                                    cell, number, line, script_line(line, false))));
     }
 }
