@@ -283,6 +283,18 @@ TEST(script_errors, name_argument_wanted_and_given) {
     });
 }
 
+TEST(script_errors, of_too_many_arguments_suggest_a_table_only_where_the_function_takes_one) {
+    const std::string models = "local d, G = iddata({1, 2, 4}, {1, 0, 1}, 1), tf({1}, {1, 1})\n";
+    check({
+        {models + "arx(d, 1, 1, 0)",
+         "lesson.lua:2: arx: accepts at most 3 arguments, but 4 were given; write the orders as one table {1, 1, 0}"},
+        {models + "idplot(d, 1, 3, {labels = 'a'})",
+         "lesson.lua:2: idplot: accepts at most 3 arguments, but 4 were given"},
+        {models + "series(G, 2, 3)", "lesson.lua:2: series: accepts at most 2 arguments, but 3 were given"},
+        {models + "save(idplot(d), 'a.svg', 3)", "lesson.lua:2: save: accepts at most 2 arguments, but 3 were given"},
+    });
+}
+
 TEST(script_errors, count_one_in_the_singular) {
     const std::string data_set = "local d = iddata({1, 2, 4}, {1, 0, 1}, 1)\n";
     check({

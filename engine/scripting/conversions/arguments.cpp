@@ -129,18 +129,30 @@ const char* Call::function_name() const {
     return static_cast<const char*>(lua_touserdata(state_, lua_upvalueindex(1)));
 }
 
+const FunctionEntry* Call::function_entry() const {
+    const char* name = function_name();
+    if (name == nullptr) return nullptr;
+    const auto& functions = context().functions;
+    const auto found = std::ranges::find(functions, std::string_view(name), &FunctionEntry::name);
+    return found == functions.end() ? nullptr : *found;
+}
+
 void Call::at_most(int arguments) const {
     if (arguments_ <= arguments) return;
-    const bool orders = to_vector(state_, 1) == nullptr && lua_isuserdata(state_, 1) && arguments >= 2 &&
-                        lua_type(state_, 2) == LUA_TNUMBER && lua_type(state_, 3) == LUA_TNUMBER;
+    const FunctionEntry* function = function_entry();
+    const bool takes_orders =
+        function != nullptr &&
+        std::ranges::find(function->arguments, ValueKind::kOrders, &ArgumentEntry::kind) != function->arguments.end();
+    const bool orders = takes_orders && lua_type(state_, 2) == LUA_TNUMBER && lua_type(state_, 3) == LUA_TNUMBER;
     const Message given = plural(arguments_, "{} was given", "{} were given");
     if (arguments == 0) throw InvalidArgument("accepts no arguments, but {}", given);
     const Message all = plural(arguments, "{} argument", "{} arguments");
     if (orders)
         throw InvalidArgument("accepts at most {}, but {}; write the orders as one table {}", all, given, "{1, 1, 0}");
     // An option in the form of MATLAB: a name, after an argument at least, then its value.
+    const bool takes_options = function != nullptr && !function->options.empty();
     for (const int name : {arguments, arguments + 1})
-        if (name > 1 && name < arguments_ && lua_type(state_, name) == LUA_TSTRING)
+        if (takes_options && name > 1 && name < arguments_ && lua_type(state_, name) == LUA_TSTRING)
             throw InvalidArgument("accepts at most {}, but {}; write the options as one table {}", all, given,
                                   fmt::format("{{{} = value}}", lua_tostring(state_, name)));
     throw InvalidArgument("accepts at most {}, but {}", all, given);

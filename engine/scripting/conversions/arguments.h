@@ -77,6 +77,7 @@ class Call {
     int give_matrix(const MatrixView& m) const;
 
   private:
+    const FunctionEntry* function_entry() const;  ///< of the running function; nullptr for a method
     lua_State* state_;
     int arguments_;
 };
