@@ -189,13 +189,18 @@ void add_confidence(const Call& call, const Options& options, std::vector<NamedM
 }
 
 /// As step(G, 5) of MATLAB, a final time.
-void refuse_last_value(const Call& call, int index) {
+void refuse_last_value(const Call& call, int index, bool of_frequency) {
     if (call.type(index) != LUA_TNUMBER) return;
-    const Number last = significant(call.number(index, "t or w"), 6);
+    const std::string name = call.function_name();
+    if (of_frequency)
+        throw InvalidArgument(
+            "specify all frequencies in rad/s instead of a single number, such as w = logspace(-2, 2, 300): {}(G, w) "
+            "returns a figure, and freqresp(G, w) returns numbers",
+            name);
     throw InvalidArgument(
-        "specify all instants or frequencies instead of only the last, such as x = linspace(0, {}, 300): step(G, x) "
-        "returns numbers, and plot(x, step(G, x)) returns a figure",
-        last);
+        "specify all instants instead of only the last, such as x = linspace(0, {}, 300): {}(G, x) returns numbers, "
+        "and plot(x, {}(G, x)) returns a figure",
+        significant(call.number(index, "t"), 6), name, name);
 }
 
 void refuse_option_texts(const Call& call, int index) {
@@ -210,7 +215,7 @@ int draw_models(Call& call) {
     int next = 0;
     std::vector<NamedModel> models = models_to_draw(call, next);
     const Vector grid = call.holds_vector(next) ? Vector(call.vector(next++, Message("t or w"))) : Vector();
-    refuse_last_value(call, next);
+    refuse_last_value(call, next, kPlot == nyquist_plot);
     if (kBands) refuse_option_texts(call, next);
     call.at_most(next);
     const Options options(call, next, kBands ? OptionTables(kRegionTables) : OptionTables(kNamedTables));
