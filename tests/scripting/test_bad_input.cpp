@@ -157,6 +157,14 @@ TEST(bad_input, the_table_holds_every_method) {
             EXPECT_TRUE(dynamic_methods().contains(name) || others.contains(name)) << name;
 }
 
+TEST(bad_input, signals_with_the_sampling_time_0_are_refused_for_it) {
+    for (const char* call : {"sine(1, 4, 0)", "chirp(1, 2, 4, 0)", "multisine({1}, 4, 0)"})
+        EXPECT_THAT(printed(call), HasSubstr("the sampling time must be a positive number of seconds, but it is 0"))
+            << call;
+    for (const char* call : {"sine(1, 1/0, 1)", "chirp(1, 2, 1/0, 1)", "multisine({1}, 1/0, 1)"})
+        EXPECT_THAT(printed(call), HasSubstr("the duration must be between 0.5 and 1e10 sampling times")) << call;
+}
+
 TEST(bad_input, data_are_checked_when_they_are_made) {
     const std::vector<std::pair<std::string, std::string>> kCases = {
         {"iddata(y*(0/0), u, 0.05)", "sample 1 of the output is not a number (NaN)"},

@@ -1,6 +1,7 @@
 #include "scripting/conversions/numeric.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "numerics/error.h"
@@ -127,7 +128,7 @@ NumericBlock& push_vector(lua_State* L, Index size) {
 
 void require_memory_for_signal(lua_State* L, double count) {
     constexpr double kAtOnce = 3;
-    if (count >= 1)  // else the calculation says what is wrong with it
+    if (count >= 1 && std::isfinite(count))  // else the calculation says what is wrong with it
         need_memory(L, kAtOnce * sizeof(double) * count,
                     [count] { return Message("a vector of {} values", decimals(count, 0)); });
 }
