@@ -244,6 +244,17 @@ IdData IdData::merge(const std::vector<IdData>& parts) {
                 "merge: part {} has {}, but the number of references in the first part is {}. Add the reference to all "
                 "parts or to none",
                 i + 1, plural(part.reference_count(), "{} reference", "{} references"), merged.reference_count());
+        if (part.regular() && !merged.regular())
+            throw InvalidArgument(
+                "merge: part {} is sampled regularly, but the first part is sampled irregularly. Interpolate the first "
+                "part at equally spaced instants (interp1)",
+                i + 1);
+        if (!part.regular() && merged.regular())
+            throw InvalidArgument(
+                "merge: part {} is sampled irregularly, but the first part is sampled regularly. Interpolate part {} "
+                "at "
+                "equally spaced instants (interp1)",
+                i + 1, i + 1);
         if (part.Ts != merged.Ts)
             throw InvalidArgument(
                 "merge: part {} has a sampling time of {} {}, but the first part has {} {}: convert both to the same "

@@ -114,6 +114,17 @@ TEST(iddata, merge_takes_no_part_for_what_it_is_not) {
                     IdData::merge({volts, millivolts});
                 }),
                 HasSubstr("in part 2, the unit of input 1 is mV, but in the first part it is V"));
+    const IdData irregular(Matrix(Vector{{1, 2, 3}}), Matrix(Vector{{1, 0, 1}}), Vector{{0, 1, 3}});
+    const IdData regular(Matrix(Vector{{1, 2, 3}}), Matrix(Vector{{1, 0, 1}}), 0.2);
+    EXPECT_THAT(thrown_message([&] {
+                    IdData::merge({regular, irregular});
+                }),
+                HasSubstr("part 2 is sampled irregularly, but the first part is sampled regularly"));
+    EXPECT_THAT(thrown_message([&] {
+                    IdData::merge({irregular, regular});
+                }),
+                HasSubstr("part 2 is sampled regularly, but the first part is sampled irregularly"));
+    EXPECT_EQ(IdData::merge({irregular, irregular}).experiments.size(), 2u);
     EXPECT_EQ(IdData::merge({volts, meters, numbered(3)}).experiments.size(), 3u);  // what is not known does not differ
 }
 
