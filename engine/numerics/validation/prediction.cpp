@@ -27,6 +27,20 @@ void check_sampling(const IdData& data, double Ts) {
         Ts, data.Ts);
 }
 
+void check_regular(const IdData& data) {
+    if (!data.regular())
+        throw InvalidArgument(
+            "The noise model is discrete-time, but the data are sampled irregularly: interpolate them at equally "
+            "spaced instants first (interp1)");
+}
+
+void check_output_varies(const IdData& data) {
+    const auto constant = [](const Experiment& e) { return (e.y.col(0).array() == e.y(0, 0)).all(); };
+    if (std::ranges::all_of(data.experiments, constant))
+        throw InvalidArgument(
+            "The measured output never changes, so a relative fit is undefined. Use data in which the output varies");
+}
+
 void check_invertible(const Vector& C, const Vector& D) {
     for (const auto& [name, p] : {std::pair{"C", C}, std::pair{"D", D}})
         if (!inside_unit_circle(p))
@@ -167,7 +181,9 @@ Predictions predict_difference_equation(const IdData& data, const NoisyModel& mo
                                      "The model has {} input, but the data have {}: select the input of the model",
                                      "The model has {} inputs, but the data have {}: select the inputs of the model",
                                      data.input_count()));
-    check_polynomial_data("The prediction", data, ordered.orders);
+    check_polynomial_channels("The prediction", data, ordered.orders);
+    check_output_varies(data);
+    check_regular(data);
     check_sampling(data, model.polynomial->Ts);
     check_invertible(model.polynomial->C, model.polynomial->D);
     const CenteredData centered = centered_for(data, options.start.offset);
@@ -196,10 +212,7 @@ Predictions predict_difference_equation(const IdData& data, const NoisyModel& mo
 Predictions predict_from_simulation(const IdData& data, const NoisyModel& model, const PredictionOptions& options) {
     const bool noisy = model.has_noise_model();
     if (noisy) {
-        if (!data.regular())
-            throw InvalidArgument(
-                "The noise model is discrete-time, but the data are sampled irregularly: interpolate them at equally "
-                "spaced instants first (interp1)");
+        check_regular(data);
         check_sampling(data, model.noise_Ts);
         check_invertible(model.C, model.D);
         if (data.output_count() != 1)

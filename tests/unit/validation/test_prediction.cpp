@@ -267,6 +267,13 @@ TEST(prediction, takes_a_model_apart_and_together) {  // oracle: its own paramet
     EXPECT_EQ(parts.orders.parameter_names(), orders.parameter_names());
 }
 
+TEST(prediction, of_a_free_response_needs_no_input) {  // oracle: the definition with an input of zeros
+    const Simulated s = simulated(kArmax, kArmaxTheta, 200);
+    const Vector u = Vector::Zero(200), y = model_output(s.model, u, s.e);
+    const Predictions all = predict(IdData(Matrix(y), Matrix(u), 0.5), noisy(s.model), ahead(1));
+    EXPECT_LT((only(all).errors - s.e).cwiseAbs().maxCoeff(), 1e-10);
+}
+
 TEST(prediction, refuses_what_it_cannot_predict) {  // oracle: definitions
     const Simulated s = simulated(kArmax, kArmaxTheta, 60);
     const auto refusal = [](const IdData& data, const NoisyModel& model, std::optional<Index> k = 1) {
@@ -277,6 +284,8 @@ TEST(prediction, refuses_what_it_cannot_predict) {  // oracle: definitions
                 HasSubstr("its noise is 0.5 s, but the sampling time of the data is 0.25 s"));
     EXPECT_THAT(refusal(IdData(Matrix(s.y), Matrix::Ones(60, 2), 0.5), noisy(s.model)),
                 HasSubstr("The model has 1 input, but the data have 2"));
+    EXPECT_THAT(refusal(IdData(Matrix::Ones(60, 1), Matrix(s.u), 0.5), noisy(s.model)),
+                HasSubstr("The measured output never changes, so a relative fit is undefined"));
     EXPECT_THAT(refusal(s.data().range(1, 2), noisy(s.model)), HasSubstr("too few samples for a prediction"));
     Vector theta = kArmaxTheta;
     theta.tail(2) << -2.5, 1;

@@ -6,14 +6,13 @@
 
 namespace dynlab::inline numerics {
 
-void check_polynomial_data(const std::string& method, const IdData& data, const PolynomialOrders& orders) {
+void check_polynomial_channels(const std::string& method, const IdData& data, const PolynomialOrders& orders) {
     if (data.output_count() != 1)
         throw InvalidArgument("{} needs one output, but the data have {}: select one", method, data.output_count());
     if (data.input_count() > 0 && static_cast<std::size_t>(data.input_count()) != orders.inputs())
         throw InvalidArgument(
             "{}: the data have {}, so nb, nf and nk need one value for each input, but the number of values is {}",
             method, plural(data.input_count(), "{} input", "{} inputs"), orders.inputs());
-    check_sampled_data(method, data);
     const int longest_delay = *std::max_element(orders.nk.begin(), orders.nk.end());
     for (std::size_t e = 0; e < data.experiments.size(); ++e)
         if (longest_delay >= data.sample_count(e))
@@ -21,6 +20,11 @@ void check_polynomial_data(const std::string& method, const IdData& data, const 
                 "{}: the delay nk = {} is not shorter than the data, which have {}. Decrease nk, or use more data",
                 method, plural(longest_delay, "{} sample", "{} samples"),
                 plural(data.sample_count(e), "{} sample", "{} samples"));
+}
+
+void check_polynomial_data(const std::string& method, const IdData& data, const PolynomialOrders& orders) {
+    check_polynomial_channels(method, data, orders);
+    check_sampled_data(method, data);
 }
 
 Fit polynomial_fit(const PolynomialOrders& orders, const VectorView& theta, double Ts) {

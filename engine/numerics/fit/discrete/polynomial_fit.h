@@ -9,7 +9,9 @@ namespace dynlab::inline numerics {
 // What all fits of difference equations have in common.
 
 /// Throws InvalidArgument, with a message that begins with `method`, for data with several outputs, a number of inputs
-/// other than that of the orders, delays not shorter than each experiment, and all errors of check_sampled_data.
+/// other than that of the orders, and delays not shorter than each experiment.
+void check_polynomial_channels(const std::string& method, const IdData& data, const PolynomialOrders& orders);
+/// The same, and all errors of check_sampled_data.
 void check_polynomial_data(const std::string& method, const IdData& data, const PolynomialOrders& orders);
 
 /// A fit with its model, sampled every Ts (s), and names made from the values; all else is to be filled.
