@@ -237,4 +237,15 @@ TEST(script_vectors, extremes_pass_over_what_is_not_a_number) {
     EXPECT_EQ(error_of("linspace(0, 1/0, 3)"), "lesson.lua:1: linspace: first and last must be finite numbers");
 }
 
+TEST(script_vectors, matrix_rows_of_vectors_and_numbers_are_joined) {  // oracle: by hand
+    EXPECT_EQ(printed("print(matrix{{vector{1, 2}, 3}, {4, 5, 6}})"), "1  2  3\n4  5  6\n");
+    EXPECT_EQ(printed("print(matrix{{1, 2, 3}, {4, vector{5, 6}}})"), "1  2  3\n4  5  6\n");
+    EXPECT_EQ(error_of("matrix{{vector{1, 2}, 3}, {4, 5}}"),
+              "lesson.lua:1: matrix: argument 1 (rows or columns): row 2 has 2 values, but row 1 has 3");
+    EXPECT_EQ(
+        error_of("matrix{{1, 'a'}}"),
+        "lesson.lua:1: matrix: argument 1 (rows or columns), row 1 must be a vector of numbers, but its element 2 "
+        "is the string \"a\"");
+}
+
 }  // namespace test_script_vectors

@@ -194,7 +194,9 @@ void make_matrix_of_table(lua_State* L, int index, const Message& label) {
     const auto entries = static_cast<Index>(lua_rawlen(L, index));
     if (entries == 0) refuse_without_entries(L, index, label);
     const bool by_rows = lua_rawgeti(L, index, 1) == LUA_TTABLE;
-    const Index length = by_rows ? static_cast<Index>(lua_rawlen(L, -1)) : entry_size(L);
+    const Index length =
+        by_rows ? joined_size(L, lua_gettop(L), static_cast<Index>(lua_rawlen(L, -1)), Message("{}, row {}", label, 1))
+                : entry_size(L);
     if (length < 0 || lua_isnumber(L, -1))
         throw InvalidArgument(
             "{} must be a list of rows {{1, 2}, {3, 4}} or of vectors (its columns), but entry 1 is {}", label,
