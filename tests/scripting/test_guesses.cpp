@@ -22,6 +22,8 @@ TEST(guesses, stand_beside_what_was_found) {
         << "28 % would read as points";
     EXPECT_EQ(printed("guess('gain', 4, '%')\noutcome('gain', 0)"),
               "gain: prediction 4 %, result 0 % (off by 4 percentage points)\n");
+    EXPECT_EQ(printed("guess('gain', 2, '%')\noutcome('gain', 3)"),
+              "gain: prediction 2 %, result 3 % (off by 1 percentage point)\n");
     EXPECT_EQ(printed("guess('mean', 1)\noutcome('mean', 0)"), "mean: prediction 1, result 0\n");
 }
 

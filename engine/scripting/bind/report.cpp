@@ -221,7 +221,12 @@ Message with_unit(double value, const std::string& unit) {
 /// points. Empty if the distance has no meaning.
 Message distance(double guessed, double found, const std::string& unit) {
     if (!std::isfinite(found) || !std::isfinite(guessed)) return {};
-    if (unit == "%") return Message("off by {} percentage points", significant(std::abs(guessed - found), 2));
+    if (unit == "%") {
+        const double points = std::abs(guessed - found);
+        const bool shown_as_one = points >= 0.995 && points < 1.05;
+        return shown_as_one ? Message("off by 1 percentage point")
+                            : Message("off by {} percentage points", significant(points, 2));
+    }
     if (found == 0) return {};
     const double percent = 100 * std::abs(guessed / found - 1);
     if (percent >= 9.5) return Message("off by {} %", decimals(percent, 0));
