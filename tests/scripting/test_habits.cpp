@@ -26,6 +26,8 @@ TEST(habits, are_answered_with_the_remedy) {
         {"local A = eye(2)\nprint(A[1][1])", "A[{i, j}]"},
         {"local A = eye(2)\nprint(A(1, 1))", "write the element i, j as A[{i, j}]"},
         {"print(zeros(1, 5)[3])", "A[{i, j}]"},
+        {"print(1/eye(2))", "write inv(A) for the inverse of A"},
+        {"print(eye(2)/eye(2))", "write solve(A, b) for A"},
         {"print(A[1,2])", "A[{1, 2}]"},
         {"x(3) = 5", "write an element as x[3]"},
         {"local x = vector{1, 2}\nx(3) = 5", "write an element as x[3]"},

@@ -89,7 +89,9 @@ int numeric_multiply(Call& call) {
 int numeric_divide(Call& call) {
     const Operand b = operand(call, 2, "/");
     if (b.block != nullptr && !b.is_vector)
-        throw InvalidArgument("x / A is not defined for a matrix A; write solve(A, b) for A\\b");
+        throw InvalidArgument(call.type(1) == LUA_TNUMBER
+                                  ? Message("x / A is not defined for a matrix A; write inv(A) for the inverse of A")
+                                  : Message("x / A is not defined for a matrix A; write solve(A, b) for A\\b"));
     return elementwise(call, "/", [](double x, double y) { return x / y; });
 }
 
