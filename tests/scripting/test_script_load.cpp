@@ -25,6 +25,29 @@ class script_load : public testing::Test {
     TemporaryFolder folder_;
 };
 
+TEST_F(script_load, save_csv_writes_the_selected_columns_of_a_data_object) {
+    RunOptions options = here();
+    options.out_folder = folder_.path();
+    const std::string data =
+        "local d = iddata({1, 2, 4}, {1, 0, 1}, 0.1, {InputName = 'voltage', OutputName = 'speed', InputUnit = 'V', "
+        "OutputUnit = 'rad/s'})\n";
+    EXPECT_EQ(printed(data + "save_csv('d.csv', d, {columns = {'speed', 't'}})", options), "");
+    EXPECT_EQ(read_text(folder_.path() / "d.csv"),
+              "# Ts: 0.1\n# unit speed: rad/s\n# unit t: s\nspeed,t\n1,0\n2,0.1\n4,0.2\n");
+    EXPECT_EQ(error_of(data + "save_csv('d.csv', d, {columns = {'zz'}})", options),
+              "lesson.lua:2: save_csv: the data object has no column 'zz'; its columns are t, voltage, speed");
+}
+
+TEST_F(script_load, save_csv_refuses_units_of_unknown_columns_and_an_invalid_sampling_time) {
+    RunOptions options = here();
+    options.out_folder = folder_.path();
+    EXPECT_EQ(error_of("save_csv('a.csv', {t = {1, 2}}, {units = {zz = 's'}})", options),
+              "lesson.lua:1: save_csv: option 'units' contains the name 'zz', but the columns of the file are t");
+    EXPECT_EQ(error_of("save_csv('a.csv', {t = {1, 2}}, {Ts = -1})", options),
+              "lesson.lua:1: save_csv: the sampling time must be a positive number of seconds, but it is -1");
+    EXPECT_FALSE(exists(folder_.path() / "a.csv"));
+}
+
 TEST_F(script_load, reports_what_was_assumed_and_feeds_fillmissing) {
     write("a.txt", "time (ms);u [V]\n0;1\n10;\n20;3,5\n");
     EXPECT_EQ(

@@ -4,6 +4,7 @@
 #include "data_io/csv_file.h"
 #include "data_io/json_file.h"
 #include "data_io/mat_file.h"
+#include "numerics/signals/checks.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/option_member.h"
 #include "scripting/conversions/userdata.h"
@@ -17,9 +18,8 @@ namespace {
 constexpr std::array kSaveCsvOptions = {
     OptionEntry{"units", ValueKind::kTable, about("units by column, such as {t = \"s\"}")},
     OptionEntry{"title", ValueKind::kText, about("text of the first comment line")},
-    OptionEntry{
-        "columns", ValueKind::kAny,
-        about("names of the columns in the order of the file; by default t, then the others in alphabetical order")},
+    OptionEntry{"columns", ValueKind::kAny,
+                about("names of the columns in the order of the file; by default all columns")},
     option<&CsvTable::Ts>("Ts", about("sampling time to write to the file"), {.unit = "s"}),
     OptionEntry{"digits",
                 ValueKind::kCount,
@@ -139,6 +139,20 @@ CsvTable table_of_data(const IdData& data) {
     return table;
 }
 
+CsvTable selected_columns(const CsvTable& all, const std::vector<std::string>& names) {
+    CsvTable table;
+    table.Ts = all.Ts;
+    for (const std::string& name : names) {
+        const auto found = std::ranges::find(all.names, name);
+        if (found == all.names.end())
+            throw InvalidArgument("the data object has no column '{}'; its columns are {}", name, listed(all.names));
+        table.names.push_back(name);
+        table.columns.push_back(all.columns[static_cast<std::size_t>(found - all.names.begin())]);
+        if (const auto unit = all.units.find(name); unit != all.units.end()) table.units.insert(*unit);
+    }
+    return table;
+}
+
 CsvTable table_of_columns(const Call& call, int index, const Options& options) {
     lua_State* L = call.state();
     CsvTable table;
@@ -188,9 +202,16 @@ int save_csv(Call& call) {
     if (data == nullptr && call.type(2) != LUA_TTABLE)
         wrong_argument(call.state(), 2, "data", Message("a data object or a table of named vectors"));
     CsvTable table = data != nullptr ? table_of_data(*data) : table_of_columns(call, 2, options);
-    for (const auto& [name, unit] : texts_by_name(call, options, "units")) table.units[name] = unit;
+    if (data != nullptr && options.has("columns")) table = selected_columns(table, options.texts("columns"));
+    for (const auto& [name, unit] : texts_by_name(call, options, "units")) {
+        if (std::ranges::find(table.names, name) == table.names.end())
+            throw InvalidArgument("option 'units' contains the name '{}', but the columns of the file are {}", name,
+                                  listed(table.names));
+        table.units[name] = unit;
+    }
     if (options.has("title")) table.remarks["title"] = options.text("title", "");
     options.read(table);
+    if (table.Ts) check_sampling_time("save_csv", *table.Ts);
     write_csv_file(file, table, static_cast<int>(options.size("digits", 7)));
     return 0;
 }
