@@ -128,6 +128,16 @@ StepTestResult step_second_order(const IdData& data) {
     return result;
 }
 
+namespace {
+
+/// The time between the samples around `time`, which is not after the last sample.
+double interval_around(const Vector& t, double time) {
+    const Index after = std::max<Index>(1, std::lower_bound(t.begin(), t.end(), time) - t.begin());
+    return t[after] - t[after - 1];
+}
+
+}  // namespace
+
 StepTestResult step_delayed(const IdData& data) {
     // A wider window would reach from the first point across the corner where the delay ends.
     StepTestResult result = begin_reading(data, {"K", "T", "D"}, 1);
@@ -135,7 +145,8 @@ StepTestResult step_delayed(const IdData& data) {
     const double rise1 = -std::expm1(-1.0 / 3), rise2 = -std::expm1(-1.0);
     const double t1 = step_data.crossing_time(rise1), t2 = step_data.crossing_time(rise2);
     const double K = result.parameters[0], T = 1.5 * (t2 - t1);
-    if (!(T > 0)) throw InvalidArgument("The response rises from 28.3 % to 63.2 % within one sample: sample faster");
+    if (t2 - t1 < interval_around(step_data.t, t2))
+        throw InvalidArgument("The response rises from 28.3 % to 63.2 % within one sample: sample faster");
     const double D = std::max(0.0, t2 - step_data.step_time - T);
     result.parameters << K, T, D;
     result.points = {{"28.3 %", t1, output_at(step_data, rise1)}, {"63.2 %", t2, output_at(step_data, rise2)}};

@@ -248,6 +248,10 @@ TEST(step_test, refuses_records_it_cannot_read) {
     EXPECT_THAT(refusal([&] { step_first_order(data_of(e, 1, first_order(0.8))); }), HasSubstr("5 samples"));
     e.N = 1000;
     EXPECT_THAT(refusal([&] { step_first_order(data_of(e, 1, first_order(1e-4))); }), HasSubstr("sample faster"));
+    for (const double D : {0.0, 0.013, 0.02})
+        EXPECT_THAT(refusal([&] { step_delayed(data_of(e, 1, first_order(1e-4, D))); }),
+                    HasSubstr("from 28.3 % to 63.2 % within one sample"))
+            << D;
     const IdData two_inputs(Matrix::Zero(50, 1), Matrix::Ones(50, 2), 1.0);
     EXPECT_THAT(refusal([&] { step_first_order(two_inputs); }), HasSubstr("one input"));
 }
