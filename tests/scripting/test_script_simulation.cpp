@@ -131,6 +131,19 @@ TEST(script_simulation, simsd_agrees_with_the_band_of_the_step) {
                 HasSubstr("the model has 1 input, but the number of input signals is 2"));
 }
 
+TEST(script_simulation, inputs_and_sampling_time_that_differ_from_the_model_are_refused) {
+    const std::string models =
+        "rng(1)\nlocal u, v = prbs(7, 4), prbs(7, 4, {0, 1})^2 + randn(508)\n"
+        "local y = lsim(tf({2}, {1, 3}), u, 0.1) + lsim(tf({1}, {1, 1}), v, 0.1) + 0.05*randn(508)\n"
+        "local A, G = arx(iddata(y, u, 0.1), {1, 1, 1}), srivc(iddata(y, {u, v}, 0.1), {{1, 1}, {1, 1}, {0, 0}})\n";
+    EXPECT_THAT(error_of(models + "simsd(A, u, 0.2)"),
+                HasSubstr("the sampling time of the model is 0.1 s, but the sampling time of the input is 0.2 s"));
+    EXPECT_THAT(error_of(models + "sim(A, u, 0.2)"), HasSubstr("The sampling times must be equal"));
+    EXPECT_THAT(error_of(models + "sim(G, u, 0.1)"),
+                HasSubstr("the model has 2 inputs, but the number of input signals is 1"));
+    EXPECT_EQ(printed(models + "print(#sim(G, matrix{u, v}, 0.1))"), "508\n");
+}
+
 TEST(script_simulation, data_of_inputs_are_refused_where_an_output_is_needed) {
     for (const char* call :
          {"arx(d, {1, 1, 1})", "srivc(d, {1, 2, 0})", "compare(d, tf({1}, {1, 1}))", "resid(d, tf({1}, {1, 1}))",

@@ -81,6 +81,12 @@ InputSignals input_argument(const Call& call) {
     return {u, Ts * Vector::LinSpaced(u.rows(), 0, static_cast<double>(u.rows() - 1)), Ts, Hold::kZoh, 4};
 }
 
+void require_signal_per_input(const Model& model, const InputSignals& input) {
+    if (static_cast<std::size_t>(input.u.cols()) != model.inputs())
+        throw InvalidArgument("the model has {}, but the number of input signals is {}",
+                              plural(model.inputs(), "{} input", "{} inputs"), input.u.cols());
+}
+
 Matrix simulated_outputs(const std::vector<TransferFunction>& channels, const InputSignals& input, Hold hold) {
     const auto inputs = static_cast<std::size_t>(input.u.cols());
     if (inputs == 0 || channels.size() % inputs != 0)
@@ -130,6 +136,7 @@ class DrawnNumbers {
 int simulate_with_noise(Call& call) {
     const NoisyModel model = noisy_model_argument(call, 1, "G");
     InputSignals input = input_argument(call);
+    if (const Model* object = to_object<Model>(call.state(), 1)) require_signal_per_input(*object, input);
     input.u = driving_input(call, 1, input.u);
     const Options options(call, input.options_index, kNoiseTables);
     const Matrix y = simulated_outputs(model.channels, input, hold_option(options, input.hold));
@@ -169,17 +176,24 @@ std::optional<TransferStructure> structure_of_estimate(const Model& model) {
     return std::nullopt;
 }
 
+void require_model_sampling(double model_Ts, const InputSignals& input) {
+    if (std::abs(model_Ts - input.Ts) > 1e-9 * model_Ts)
+        throw InvalidArgument(
+            "the sampling time of the model is {} s, but the sampling time of the input is {} s. The sampling times "
+            "must be equal",
+            significant(model_Ts, 10), significant(input.Ts, 10));
+}
+
 SimulationSpread spread_of(const Model& model, const InputSignals& input, Hold hold, Index runs, RandomStream& random) {
     if (input.Ts == 0)
         throw InvalidArgument(
             "the input must be sampled regularly; interpolate it at equally spaced instants (interp1)");
-    if (static_cast<std::size_t>(input.u.cols()) != model.inputs())
-        throw InvalidArgument("the model has {}, but the number of input signals is {}",
-                              plural(model.inputs(), "{} input", "{} inputs"), input.u.cols());
+    require_signal_per_input(model, input);
     if (const auto uncertain = uncertain_model(model))
         return simulation_spread(*uncertain, input.u.col(0), input.Ts, hold, runs, random);
     if (model.estimate && model.outputs == 1 && model.estimate->covariance().size() > 0) {
         const Matrix covariance = model.estimate->trusted_covariance();
+        if (model.polynomial) require_model_sampling(model.polynomial->Ts, input);
         if (model.polynomial) return simulation_spread(*model.polynomial, covariance, input.u, runs, random);
         if (const auto structure = structure_of_estimate(model))
             return simulation_spread(*structure, model.estimate->theta, covariance, input.u, input.Ts, hold, runs,
