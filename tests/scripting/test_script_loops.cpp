@@ -83,6 +83,9 @@ TEST(script_loops, records_of_loops_say_what_they_cannot) {
     EXPECT_THAT(english, testing::StartsWith("simloop: with a continuous-time controller, u changes"));
     EXPECT_EQ(std::count(english.begin(), english.end(), '\n'), 1) << "a sampled controller holds u";
     EXPECT_THAT(french, testing::StartsWith("simloop : avec un régulateur à temps continu"));
+    EXPECT_THAT(printed("print(pcall(simloop, tf({2}, {1, 4}, {IODelay = 1}), 3, prbs(5, 5), 0.05))"),
+                testing::StartsWith("false"))
+        << "the note is only for data that were simulated";
     EXPECT_THAT(error_of("simloop(tf({2}, {1, 4}), 3, 1, 0.05)"),
                 HasSubstr("r must contain the reference at every sample"));
 }

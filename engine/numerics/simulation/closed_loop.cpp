@@ -14,10 +14,14 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr double kSameStep = 1e-9;  // relative difference of two sampling times that mean the same
-[[noreturn]] void report_endless_answers() {
+[[noreturn]] void report_endless_answers(bool sampled) {
+    if (sampled)
+        throw InvalidArgument(
+            "closed loop: plant and controller both have direct feedthrough (as many zeros as poles), which forms an "
+            "algebraic loop. Add a computing delay, or add a pole to the plant or the controller");
     throw InvalidArgument(
-        "closed loop: plant and controller both have direct feedthrough (as many zeros as poles), which forms an "
-        "algebraic loop. Add a computing delay, or add a pole to the plant or the controller");
+        "closed loop: the product of the direct feedthroughs of plant and controller is -1, which forms an algebraic "
+        "loop without a solution. Change the gain, or add a pole to the plant or the controller");
 }
 
 void check_proper(const TransferFunction& plant, const TransferFunction& controller) {
@@ -95,7 +99,7 @@ StateSpace continuous_loop(const LoopPlant& plant, const TransferFunction& contr
     const StateSpace C = to_state_space(controller);
     const Index n = G.order(), copies = plant.copies, total = n + copies * C.order();
     const Matrix D = of_all_inputs(G.D.col(0), copies);
-    if (1 + D(0, 0) * C.D(0, 0) == 0) report_endless_answers();
+    if (1 + D(0, 0) * C.D(0, 0) == 0) report_endless_answers(false);
     Matrix u = Matrix::Zero(copies, total + 2), x = u;
     x.leftCols(n) = G.C;
     u = C.D(0, 0) * control_errors(x);
@@ -131,7 +135,7 @@ StateSpace sampled_loop(const LoopPlant& plant, double delay, const LoopControll
         return rows;
     };
     const bool answers_at_once = G.delay == 0 && !at_once.isZero(0);
-    if (answers_at_once && C.D(0, 0) != 0) report_endless_answers();
+    if (answers_at_once && C.D(0, 0) != 0) report_endless_answers(true);
     Matrix u = Matrix::Zero(copies, total + 2), x = u;
     for (Index copy = 0; copy < copies; ++copy)
         u.row(copy).segment(controllers + copy * C.order(), C.order()) = C.C.row(0);

@@ -139,7 +139,9 @@ TEST(closed_loop, refuses_what_is_no_loop) {  // oracle: the sentence names the 
                 HasSubstr("controller has 1 zero but only 0"));
     EXPECT_THAT(refused(G, {gain, 1}), HasSubstr("needs a sampled controller"));
     EXPECT_THAT(refused(G.with_delay(0.1), {gain}), HasSubstr("pade(G, n)"));
-    EXPECT_THAT(refused(direct, {sampled_gain}), HasSubstr("algebraic loop"));
+    EXPECT_THAT(refused(direct, {sampled_gain}), HasSubstr("algebraic loop. Add a computing delay"));
+    EXPECT_THAT(refused(direct, {TransferFunction(Vector{{-1}}, Vector{{1}})}),
+                HasSubstr("algebraic loop without a solution. Change the gain"));
     EXPECT_THAT(refused(discrete(Vector{{1}}, Vector{{1, -0.5}}), {sampled_gain}), HasSubstr("continuous-time model"));
     EXPECT_EQ(refused(direct, {sampled_gain, 1}), "");
     const Vector r = Vector::Ones(10);

@@ -78,6 +78,7 @@ int simulate_loop(Call& call) {
             plural(r.size(), "{} value", "{} values"));
     const Hold hold = hold_option(options, Hold::kZoh);
     const Vector noise = options.has("noise") ? Vector(options.vector("noise")) : Vector::Zero(r.size());
+    IdData data = ClosedLoop(plant, controller, call.number(4, "Ts"), hold).simulate(r, noise);
     if (!controller.sampled())
         call.print(
             localized(call,
@@ -85,7 +86,6 @@ int simulate_loop(Call& call) {
                               "contain it only at the samples. This biases models estimated from them. A controller "
                               "with the sampling time Ts holds u between the samples, so its data are exact.")) +
             "\n");
-    IdData data = ClosedLoop(plant, controller, call.number(4, "Ts"), hold).simulate(r, noise);
     const Vector x = data.experiments.front().y.col(0) - noise;
     return give_data(call, std::move(data)) + call.give_vector(x);
 }
