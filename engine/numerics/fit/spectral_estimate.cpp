@@ -29,13 +29,20 @@ bool changes(const Matrix& signal) {
     return signal.maxCoeff() > signal.minCoeff();
 }
 
+/// Where the estimated noise is not positive, its variance is unknown: estimators must give such a frequency the least
+/// weight, not an infinite one.
+Vector usable_variances(const Vector& variance) {
+    if (variance.size() == 0 || !(variance.maxCoeff() > 0)) return {};
+    return (variance.array() > 0).select(variance, variance.maxCoeff());
+}
+
 }  // namespace
 
 FrequencyData frequency_data_of(const SpectralEstimate& estimate, const IdData& data, const std::string& method,
                                 bool smoothed) {
     FrequencyData response;
     response.w = estimate.w, response.response = estimate.response;
-    if (estimate.std.size() > 0) response.variance = 2 * estimate.std.cwiseAbs2();  // of both parts
+    response.variance = usable_variances(2 * estimate.std.cwiseAbs2());  // of both parts
     response.Ts = data.Ts, response.inter_sample = inter_sample_of(data.hold);
     response.input_name = data.input_names.front(), response.output_name = data.output_names.front();
     response.input_unit = data.input_units.front(), response.output_unit = data.output_units.front();

@@ -23,6 +23,7 @@ struct SpectralEstimate {
 
 /// The estimate as a measured response, which models are fitted to; `smoothed`: over the frequencies, so that
 /// neighbors share their errors. `method` is the one that gave it, `data` what it was given.
+/// Variances of 0 become the largest variance; without positive variances, the result has none.
 FrequencyData frequency_data_of(const SpectralEstimate& estimate, const IdData& data, const std::string& method,
                                 bool smoothed);
 

@@ -49,4 +49,18 @@ TEST(spectral_estimate, data_it_can_work_on) {  // oracle: the promises of the h
     EXPECT_THAT(refusal(IdData(Matrix(y.topRows(10)), Matrix(u.topRows(10)), 0.1)), HasSubstr("at least 20 samples"));
 }
 
+TEST(spectral_estimate, variance_of_zero_becomes_the_largest) {  // oracle: by hand
+    const Vector y = RandomStream(1).normal(50), u = RandomStream(2).normal(50);
+    SpectralEstimate estimate;
+    estimate.w = Vector{{1, 2, 3}};
+    estimate.response = ComplexVector::Ones(3);
+    estimate.std = Vector{{0.1, 0, 0.2}};
+    const IdData data(Matrix(y), Matrix(u), 0.1);
+    const FrequencyData response = frequency_data_of(estimate, data, "spa", true);
+    EXPECT_LT((response.variance - Vector{{0.02, 0.08, 0.08}}).cwiseAbs().maxCoeff(), 1e-15);
+    EXPECT_EQ(thrown_message([&] { check_frequency_data("srivc", response); }), "");
+    estimate.std.setZero();
+    EXPECT_EQ(frequency_data_of(estimate, data, "spa", true).variance.size(), 0);
+}
+
 }  // namespace test_spectral_estimate
