@@ -16,11 +16,16 @@
 
 namespace dynlab::inline figures {
 
-FigureFormat figure_format(const std::filesystem::path& file) {
+std::optional<FigureFormat> known_figure_format(const std::filesystem::path& file) {
     const std::string extension = ending_of(file);
     if (extension == ".pdf") return FigureFormat::kPdf;
     if (extension == ".svg") return FigureFormat::kSvg;
     if (extension == ".png") return FigureFormat::kPng;
+    return std::nullopt;
+}
+
+FigureFormat figure_format(const std::filesystem::path& file) {
+    if (const auto format = known_figure_format(file)) return *format;
     throw InvalidArgument("a figure must be saved as .pdf, .svg or .png, but the file name is \"{}\"",
                           file.filename().string());
 }

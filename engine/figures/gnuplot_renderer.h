@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "base/reader.h"
 #include "platform/cache.h"
@@ -17,6 +18,7 @@ class FigureError : public EnvironmentError {
 };
 
 enum class FigureFormat { kPdf, kSvg, kPng };
+std::optional<FigureFormat> known_figure_format(const std::filesystem::path& file);  ///< by extension
 FigureFormat figure_format(
     const std::filesystem::path& file);  ///< by extension; throws InvalidArgument naming the three
 

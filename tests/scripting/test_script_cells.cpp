@@ -4,6 +4,7 @@
 #include "data_io/values/cbor_values.h"
 #include "documents/figure_description.h"
 #include "documents/percent_script.h"
+#include "platform/temporary_folder.h"
 #include "script_run.h"
 
 namespace test_script_cells {
@@ -226,6 +227,14 @@ TEST(script_cells, show_curves_as_described) {
         test::error_of("save(plot({1, 2}, {1, 2}), '/etc/x.pdf')"),
         "lesson.lua:1: save: '/etc/x.pdf' is outside the script's folder and the output folder; scripts can write "
         "only to these folders and their subfolders");
+}
+
+TEST(script_cells, a_figure_with_an_unknown_ending_is_refused_with_all_endings) {
+    const TemporaryFolder folder;
+    RunOptions options;
+    options.out_folder = options.script_folder = folder.path();
+    EXPECT_EQ(test::error_of("save(plot({1, 2}, {1, 2}), 'a.jpg')", options),
+              "lesson.lua:1: save: a figure must be saved as .pdf, .svg, .png or .gp, but the file name is \"a.jpg\"");
 }
 
 }  // namespace test_script_cells

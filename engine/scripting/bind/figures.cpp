@@ -339,7 +339,11 @@ int save(Call& call) {
         write_file_atomically(file, gnuplot_file(figure.figure, FigureFormat::kPdf, drawn, reader));
         return 0;
     }
-    call.context().renderer.draw(figure.figure, file, figure_format(file), reader);
+    const std::optional<FigureFormat> format = known_figure_format(file);
+    if (!format)
+        throw InvalidArgument("a figure must be saved as .pdf, .svg, .png or .gp, but the file name is \"{}\"",
+                              file.filename().string());
+    call.context().renderer.draw(figure.figure, file, *format, reader);
     return 0;
 }
 
