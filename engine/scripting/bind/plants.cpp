@@ -98,7 +98,7 @@ int true_model(Call& call) {
     const Plant& plant = plant_of(call);
     const bool graded = call.context().options.graded;
     give_values(call, plant.truth(graded ? choice.variant_number | kUnassignedVariant : choice.variant_number),
-                "the truth of " + plant.name);
+                fmt::format("rig_truth(\"{}\")", plant.name));
     return 1;
 }
 
