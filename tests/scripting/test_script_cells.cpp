@@ -108,6 +108,16 @@ TEST(script_cells, report_values_are_written_as_numbers_are) {  // oracle: by ha
     EXPECT_EQ(text("whole"), "007");
 }
 
+TEST(script_cells, report_values_refuse_a_format_for_other_values) {
+    EXPECT_EQ(test::error_of("report.value('n', 3.5, '%d')"),
+              "lesson.lua:1: report.value: argument 3 (format) must be a format for one value, such as \"%.3f\", but "
+              "\"%d\" cannot format 3.5");
+    for (const char* call :
+         {"report.value('n', 3, '%d %d')", "report.value('n', 3, '%y')", "report.value('n', 'x', '%d')"})
+        EXPECT_TRUE(test::error_of(call).starts_with("lesson.lua:1: report.value: argument 3 (format) must be"))
+            << call;
+}
+
 TEST(script_cells, handles_are_where_the_numbers_of_sliders_put_them) {
     const RunRecord record = run_script(
         "-- %% id=a\nlocal T = slider('T', 2, 1, 4, {log = true})\nlocal K = slider('K', 3, 0, 10)\n"

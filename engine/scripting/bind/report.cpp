@@ -78,8 +78,10 @@ std::string formatted(const Call& call, const std::string& format, int index) {
     lua_getfield(L, -1, "format");
     lua_pushlstring(L, format.data(), format.size());
     lua_pushvalue(L, index);
-    lua_call(L, 2, 1);
-    return lua_tostring(L, -1);
+    if (lua_pcall(L, 2, 1, 0) == LUA_OK) return lua_tostring(L, -1);
+    pass_stop_on(L);
+    throw InvalidArgument("{} must be a format for one value, such as \"%.3f\", but \"{}\" cannot format {}",
+                          argument_label(3, "format"), format, given_value(L, index));
 }
 
 /// A number that a format made look like less than zero, or like none, as displays show it.
