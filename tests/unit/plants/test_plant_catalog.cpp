@@ -75,6 +75,11 @@ TEST_P(plant_catalog, has_a_stored_data_set_that_says_its_signals) {
     }
 }
 
+TEST_P(plant_catalog, title_uses_the_terms_of_the_glossary) {
+    EXPECT_THAT(plant().title, testing::Not(HasSubstr("record")));
+    EXPECT_THAT(plant().title, testing::Not(HasSubstr("rig")));
+}
+
 TEST_P(plant_catalog, records_have_the_experiments_the_signals_and_the_documented_sampling) {
     const Plant& plant = this->plant();
     std::vector<std::string> signals;
