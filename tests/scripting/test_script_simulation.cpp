@@ -142,6 +142,10 @@ TEST(script_simulation, inputs_and_sampling_time_that_differ_from_the_model_are_
     EXPECT_THAT(error_of(models + "sim(G, u, 0.1)"),
                 HasSubstr("the model has 2 inputs, but the number of input signals is 1"));
     EXPECT_EQ(printed(models + "print(#sim(G, matrix{u, v}, 0.1))"), "508\n");
+    for (const char* call : {"compare(d, G)", "predict(d, G)", "resid(d, G)"})
+        EXPECT_THAT(error_of(models + "local d = iddata({y, y}, u, 0.1)\n" + call),
+                    HasSubstr("the model has 2 inputs and 1 output, but the data have 1 input and 2 outputs"))
+            << call;
 }
 
 TEST(script_simulation, data_of_inputs_are_refused_where_an_output_is_needed) {

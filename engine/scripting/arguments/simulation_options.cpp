@@ -94,6 +94,19 @@ const Estimate* characteristic_of(const Call& call, int index) {
     return model->estimate.get();
 }
 
+/// Models and data whose channels agree only in their number, such as two inputs of the model and two outputs of the
+/// data.
+void refuse_transposed_channels(const Call& call, int index, const IdData& data) {
+    const Model* model = index <= call.count() ? to_object<Model>(call.state(), index) : nullptr;
+    if (model == nullptr) return;
+    const auto inputs = static_cast<Index>(model->inputs()), outputs = static_cast<Index>(model->outputs);
+    if (inputs * outputs != data.input_count() * data.output_count() || inputs == data.input_count()) return;
+    throw InvalidArgument("the model has {} and {}, but the data have {} and {}; select the channels with data:select",
+                          plural(inputs, "{} input", "{} inputs"), plural(outputs, "{} output", "{} outputs"),
+                          plural(data.input_count(), "{} input", "{} inputs"),
+                          plural(data.output_count(), "{} output", "{} outputs"));
+}
+
 }  // namespace
 
 Matrix driving_input(const Call& call, int index, const Matrix& u) {
@@ -104,6 +117,7 @@ Matrix driving_input(const Call& call, int index, const Matrix& u) {
 }
 
 const IdData& driving_data(const Call& call, int index, const IdData& data, IdData& storage) {
+    refuse_transposed_channels(call, index, data);
     if (characteristic_of(call, index) == nullptr) return data;
     storage = data;
     for (Experiment& experiment : storage.experiments) experiment.u = driving_input(call, index, experiment.u);
