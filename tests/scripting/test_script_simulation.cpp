@@ -103,7 +103,7 @@ TEST(script_simulation, a_last_instant_is_refused_with_the_instants_to_give) {
     EXPECT_THAT(error_of("step(tf({1}, {1, 1}), 5)"), HasSubstr("plot(x, step(G, x))"));
     EXPECT_THAT(error_of("impulse(tf({1}, {1, 1}), 5)"), HasSubstr("plot(x, impulse(G, x))"));
     EXPECT_THAT(error_of("nyquist(tf({1}, {1, 1}), 5)"),
-                HasSubstr("w = logspace(-2, 2, 300): nyquist(G, w) returns a figure, and freqresp(G, w)"));
+                HasSubstr("w = logspace(-2, 2, 300). nyquist(G, w) returns a figure, and freqresp(G, w)"));
 }
 
 TEST(script_simulation, simsd_agrees_with_the_band_of_the_step) {

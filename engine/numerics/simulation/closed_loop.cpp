@@ -20,7 +20,7 @@ constexpr double kSameStep = 1e-9;  // relative difference of two sampling times
             "closed loop: plant and controller both have direct feedthrough (as many zeros as poles), which forms an "
             "algebraic loop. Add a computing delay, or add a pole to the plant or the controller");
     throw InvalidArgument(
-        "closed loop: the product of the direct feedthroughs of plant and controller is -1, which forms an algebraic "
+        "closed loop: the product of the feedthrough gains of plant and controller is -1, which forms an algebraic "
         "loop without a solution. Change the gain, or add a pole to the plant or the controller");
 }
 

@@ -194,11 +194,11 @@ void refuse_last_value(const Call& call, int index, bool of_frequency) {
     const std::string name = call.function_name();
     if (of_frequency)
         throw InvalidArgument(
-            "specify all frequencies in rad/s instead of a single number, such as w = logspace(-2, 2, 300): {}(G, w) "
+            "specify all frequencies in rad/s instead of a single number, such as w = logspace(-2, 2, 300). {}(G, w) "
             "returns a figure, and freqresp(G, w) returns numbers",
             name);
     throw InvalidArgument(
-        "specify all instants instead of only the last, such as x = linspace(0, {}, 300): {}(G, x) returns numbers, "
+        "specify all instants instead of only the last, such as x = linspace(0, {}, 300). {}(G, x) returns numbers, "
         "and plot(x, {}(G, x)) returns a figure",
         significant(call.number(index, "t"), 6), name, name);
 }
