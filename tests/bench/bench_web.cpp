@@ -57,10 +57,6 @@ class FileServer {
     std::thread thread_;
 };
 
-double number(Browser& browser, const std::string& script) {
-    return std::stod(browser.evaluate(script));
-}
-
 void wait(Browser& browser, const std::string& expression) {
     if (!browser.becomes_true(expression, 120)) throw std::runtime_error("the page never shows: " + expression);
 }
@@ -129,23 +125,29 @@ std::string timed_srivc(int samples, int count) {
         "rng(1)\nlocal u = prbs(10, {0})\nu = u:range(1, {1})\n"
         "local y = lsim(tf({{2}}, {{1, 4, 3}}), u, 0.05) + 0.05*randn({1})\nlocal data = iddata(y, u, 0.05)\n"
         "srivc(data, {{1, 2, 0}}, {{lambda = 3}})\ntic()\n"
-        "for k = 1, {2} do srivc(data, {{1, 2, 0}}, {{lambda = 3 + 1e-4*k}}) end\nprint(toc()/{2})\n",
+        "for k = 1, {2} do srivc(data, {{1, 2, 0}}, {{lambda = 3 + 1e-4*k}}) end\nprint('{1} samples:', toc()/{2})\n",
         samples / 1000 + 1, samples, count);
+}
+
+/// "1500 samples: 0.0012": the number behind the colon.
+double printed_seconds(const std::string& output) {
+    return std::stod(output.substr(output.find(':') + 1));
 }
 
 double native_seconds(const Workbench& bench, const std::string& script) {
     bench.write("timed.lua", script);
     const ChildResult run = bench.dynlab({"run", "timed.lua", "--out", "timed"});
     must_succeed(run);
-    return std::stod(run.output);
+    return printed_seconds(run.output);
 }
 
-double seconds_in_page(Browser& browser, const std::string& script) {
+double seconds_in_page(Browser& browser, const std::string& script, int samples) {
     browser.evaluate("document.querySelector('[data-cell=times] .CodeMirror').CodeMirror.setValue(" +
-                     json(script).dump() + "); document.querySelector('[data-cell=times] pre.output')?.remove()");
+                     json(script).dump() + ")");
     browser.click("[data-cell=times] .run-cell");
-    wait(browser, "document.querySelector('[data-cell=times] pre.output')?.textContent > 0");
-    return number(browser, "return Number(document.querySelector('[data-cell=times] pre.output').textContent)");
+    const std::string output = "document.querySelector('[data-cell=times] pre.output')?.textContent";
+    wait(browser, fmt::format("{}?.startsWith('{} samples')", output, samples));
+    return printed_seconds(json::parse(browser.evaluate("return " + output)));
 }
 
 /// Bytes of the engine's memory after so many runs of lesson 2, under Node. MB.
@@ -189,7 +191,6 @@ void measure_web(Report& report) {
                 if (file.find("dynlab.wasm") != std::string::npos || file.find("dynlab.js") != std::string::npos)
                     of_engine += size;
                 total += size;
-                fmt::print(stderr, "{:10.0f} {}\n", size * kMegabyte, file);
             }
             row("first visit to lesson 2, gzipped (MB)", "2.5 MB", total, 2.5, 1.5);
             row("the engine of it (MB)", "1.5 MB", of_engine, 1.5, 1);
@@ -215,7 +216,7 @@ void measure_web(Report& report) {
         const std::string script = timed_srivc(samples, count);
         const double native = native_seconds(bench, script);
         report.results.push_back({fmt::format("srivc, {} samples, in the page (s)", samples), "the native program",
-                                  seconds_in_page(browser, script), native, 6, 3});
+                                  seconds_in_page(browser, script, samples), native, 6, 3});
     }
     const double few = memory_after(bench, engine, 10);
     row("memory after 1,000 runs of lesson 2 (MB)", "300 MB", memory_after(bench, engine, kManyRuns), 300, 150);

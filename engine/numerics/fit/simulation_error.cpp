@@ -14,11 +14,11 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kLagsOfErrors = 20;     // beyond the delay
-constexpr Index kMaxLags = 200;         // the last ones, where the delay is long
-constexpr double kFarBeyondChance = 4;  // standard deviations of chi-squared
-constexpr double kFastChanges = 0.1;    // squares of the errors' differences, relative to those of the errors
-constexpr double kMinInputPower = 1e-6;      // of the input's power
+constexpr Index kLagsOfErrors = 20;      // beyond the delay
+constexpr Index kMaxLags = 200;          // the last ones, where the delay is long
+constexpr double kFarBeyondChance = 4;   // standard deviations of chi-squared
+constexpr double kFastChanges = 0.1;     // squares of the errors' differences, relative to those of the errors
+constexpr double kMinInputPower = 1e-6;  // of the input's power
 
 /// The errors of a fit, experiment by experiment.
 struct FitErrors {
