@@ -83,20 +83,21 @@ inline constexpr std::array kSearchOptions = {
 
 /// With the description of TdMax, whose default and limits depend on the function.
 constexpr std::array<OptionEntry, 3> delay_search_options(MessageId<> largest_delay) {
-    return {option<&FitOptions::least_delay>("TdMin", about("smallest delay in the search"),
-                                             {.unit = "s", .member = "least_delay"}),
-            option<&FitOptions::largest_delay>("TdMax", largest_delay, {.unit = "s", .member = "largest_delay"}),
-            option<&FitOptions::delay_count>("NumTd", about("maximum number of delays on the grid of the search"),
-                                             {.member = "delay_count"})};
+    return {
+        option<&FitOptions::least_delay>("TdMin", about("smallest delay in the search"),
+                                         {.unit = "s", .member = "least_delay"}),
+        option<&FitOptions::largest_delay>("TdMax", largest_delay, {.unit = "s", .member = "largest_delay"}),
+        option<&FitOptions::delay_count>("NumTd", about("maximum number of delays on the initial grid of the search"),
+                                         {.member = "delay_count"})};
 }
 inline constexpr std::array kDelayOptions = delay_search_options(
     about("largest delay in the search, by default a bound computed from the data; 0 for no delay"));
 /// Read by structure_of_counts().
-inline constexpr OptionEntry kKnownDelayOption = {
-    "IODelay",
-    ValueKind::kVector,
-    about("known delay, which is not estimated; with several inputs, a table with one delay per input"),
-    {.unit = "s", .member = "delay"}};
+inline constexpr OptionEntry kKnownDelayOption = {"IODelay",
+                                                  ValueKind::kVector,
+                                                  about("known delay, which is not estimated; with several channels, "
+                                                        "one number for all or a table with one per channel"),
+                                                  {.unit = "s", .member = "delay"}};
 inline constexpr std::array kFixedDelayOptions = {kKnownDelayOption};
 /// Read by started_structure().
 inline constexpr std::array kKnownDelayOptions = {

@@ -26,7 +26,10 @@ constexpr std::array kCharacteristicOptions = {
         about("initial state: at rest with the first input value (\"steady\") or with zero input (\"none\"), or the "
               "better of these two (\"auto\")"),
         {.initial = "\"auto\"", .choices = kRestStates, .former = "zero", .member = "initial_state"})};
-constexpr OptionTable kHammerstein[] = {kCharacteristicOptions, kDelayOptions, kFixedDelayOptions, kLimitOptions};
+/// Read by structure_of_counts(), as kKnownDelayOption, but for one channel.
+constexpr std::array kKnownDelayOfOneChannel = {OptionEntry{
+    "IODelay", ValueKind::kNumber, about("known delay, which is not estimated"), {.unit = "s", .member = "delay"}}};
+constexpr OptionTable kHammerstein[] = {kCharacteristicOptions, kDelayOptions, kKnownDelayOfOneChannel, kLimitOptions};
 
 constexpr std::array kHammersteinArguments = {
     ArgumentEntry{"data", ValueKind::kData,

@@ -34,7 +34,12 @@ constexpr std::array kNoisyArguments = {
         about(
             "nb coefficients of B (at most nf + 1), nc, nd and nf coefficients of C, D and F without the leading 1, "
             "and an input delay of nk samples. With several inputs, nb, nf and nk are tables")}};
-constexpr std::array kNoisyTransferArguments = {kOneOutputData, kPoleCount, kZeroCount};
+constexpr std::array kNoisyTransferArguments = {
+    kOneOutputData,
+    ArgumentEntry{"np", ValueKind::kCount,
+                  about("number of poles; with several inputs, one number for all or a table with one per input")},
+    ArgumentEntry{"nz", ValueKind::kCount,
+                  about("number of zeros; with several inputs, one number for all or a table with one per input")}};
 
 int noise_order(const std::vector<int>& entry, const OrderEntry& what) {
     if (entry.size() == 1) return entry.front();
