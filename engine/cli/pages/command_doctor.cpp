@@ -47,7 +47,7 @@ constexpr LatexFile kLatexFiles[] = {
     {"pgfmath.sty", "texlive-pictures", "slides", true},
     {"amsmath.sty", "texlive-latex-base", "mathematics", true},
     {"frenchb.ldf", "texlive-lang-french", "documents in French only", false},
-    {"luaotfload.sty", "texlive-luatex", "names in Cyrillic, Greek, Arabic and other scripts in PDFs", false},
+    {"luaotfload.sty", "texlive-luatex", "PDFs with Cyrillic, Greek, Arabic and other non-Latin text", false},
     {"NotoSerif-Regular.ttf", "fonts-noto-core", "their letters", false},
     {"NotoSerifCJK-Regular.ttc", "fonts-noto-cjk", "Chinese, Japanese and Korean letters", false},
 };
