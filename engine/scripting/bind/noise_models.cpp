@@ -31,9 +31,8 @@ constexpr std::array kNoisyArguments = {
     kOneOutputData,
     ArgumentEntry{
         "orders", ValueKind::kOrders,
-        about(
-            "nb coefficients of B (at most nf + 1), nc, nd and nf coefficients of C, D and F without the leading 1, "
-            "and an input delay of nk samples. With several inputs, nb, nf and nk are tables")}};
+        about("nb coefficients of B (at most nf + 1), nc, nd and nf coefficients of C, D and F without the leading 1, "
+              "and an input delay of nk samples. With several inputs, nb, nf and nk are tables")}};
 constexpr std::array kNoisyTransferArguments = {
     kOneOutputData,
     ArgumentEntry{"np", ValueKind::kCount,
