@@ -5,6 +5,7 @@
 #include "data_io/values/json_values.h"
 #include "scripting/interpreter/catalog.h"
 #include "scripting/lint/lint.h"
+#include "web/page_bench.h"
 #include "web/page_checks.h"
 #include "web/page_world.h"
 
@@ -104,6 +105,21 @@ const char* dynlab_ask(const char* question_json) {
     app::RunOrder question;
     question.question = asked.question, question.text = asked.text, question.cursor = asked.cursor;
     return answer(app::answer_about_state(world().runtime().state(), question));
+}
+
+/// web::BenchOpening: a session of the workbench.
+void dynlab_open_bench(const char* opening_json) {
+    carry_out([&] { web::open_bench(from_json<web::BenchOpening>(opening_json), session().calls); });
+}
+
+/// The web::BenchReply to a web::BenchOrder.
+const char* dynlab_ask_bench(const char* order_json) {
+    return answer(json_of(web::answer_bench(from_json<web::BenchOrder>(order_json))));
+}
+
+/// Runs what the orders before have made old. Everything is news.
+void dynlab_work_for_bench() {
+    carry_out([&] { web::work_for_bench(); });
 }
 
 /// The catalog of a language other than English, before anything is said in it.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "app/workbench/estimator_forms.h"
@@ -81,14 +82,15 @@ void BenchState::allow_runs() {
     may_run_ = old_ = true;
 }
 
-void BenchState::run_was_stopped() {
+void BenchState::run_was_stopped(const std::string& cell) {
     stopped_ = changed_ = true;
-    for (std::size_t i = 0; i < runner_.parts().size(); ++i)
-        if (states_[runner_.parts()[i].cells.front()].state != "done") {
-            leave_out(i);
-            break;
-        }
-    for (auto& [cell, state] : states_)
+    const std::vector<ScriptPart>& parts = runner_.parts();
+    const auto stopped = std::ranges::find_if(parts, [&](const ScriptPart& part) {
+        return cell.empty() ? states_[part.cells.front()].state != "done"
+                            : std::ranges::find(part.cells, cell) != part.cells.end();
+    });
+    if (stopped != parts.end()) leave_out(static_cast<std::size_t>(stopped - parts.begin()));
+    for (auto& [id, state] : states_)
         if (state.state != "done") state = {"waiting", 0, 0};
 }
 

@@ -38,10 +38,11 @@ class BenchState {
     void put(const std::function<std::string(const std::string&)>& make);  ///< from the current script
     void undo();
     void redo();
-    std::size_t look(const ViewOrder& order);              ///< the number of the order
-    void again();                                          ///< runs what was stopped
-    void allow_runs();                                     ///< nothing is run before
-    void run_was_stopped();                                ///< the text before the stopped part is still shown
+    std::size_t look(const ViewOrder& order);  ///< the number of the order
+    void again();                              ///< runs what was stopped
+    void allow_runs();                         ///< nothing is run before
+    /// The text before the stopped part, that with a cell or the first that has not finished, is still shown.
+    void run_was_stopped(const std::string& cell = "");
     void read_changed_file();                              ///< what another program wrote into the script's file
     void data_changed(const std::filesystem::path& file);  ///< that the script reads
 

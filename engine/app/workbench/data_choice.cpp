@@ -210,6 +210,14 @@ std::string loading_lines(const DataSelection& order) {
     return recording.loading(file) + fmt::format("{} = {}\n", order.name, recording.data(file, order.outputs));
 }
 
+std::string loading_lines_for_page(const DataSelection& order) {
+    try {
+        return loading_lines(order);
+    } catch (const UnknownSampling& error) {
+        throw EnvironmentError("{}; select the time column, or enter the sampling time below", error.message());
+    }
+}
+
 DataSelection suggested_order(const DataChoice& choice) {
     DataSelection order{choice.data, {}, {}, "", 0, "data", {}};
     for (const DataColumn& column : choice.columns) {
@@ -243,6 +251,14 @@ std::string with_data(const std::string& source, const DataSelection& order, con
 void expect_plain_name(const std::string& name) {
     if (std::ranges::any_of(name, [](unsigned char c) { return std::iscntrl(c); }))
         throw EnvironmentError("the file name {} contains control characters", in_one_line(name));
+}
+
+fs::path name_of_data_file(const std::string& requested) {
+    expect_plain_name(requested);
+    const fs::path name = fs::path(requested).filename();
+    if (!is_data_file(name))
+        throw EnvironmentError("{} is not a data file: expected .csv, .txt, .dat, .tsv, .xlsx or .mat", name.string());
+    return name;
 }
 
 std::string new_session(const std::string& title, const std::string& lines, const std::string& language) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -44,6 +45,8 @@ DYNLAB_DESCRIBE(DataSelection, data, inputs, outputs, time, Ts, name, units)
 /// The lines that load it: `NAME_file = load(...)`, `NAME = iddata(...)`. Throws EnvironmentError as Recording, and for
 /// a name that no variable can have, no input or no output.
 std::string loading_lines(const DataSelection& order);
+/// The same, with advice for the user of the page about a file without a sampling time.
+std::string loading_lines_for_page(const DataSelection& order);
 
 /// The order that the roles of a choice's columns suggest. Throws EnvironmentError where there are no two signals.
 DataSelection suggested_order(const DataChoice& choice);
@@ -55,6 +58,10 @@ std::string with_data(const std::string& script, const DataSelection& order, con
 
 /// Throws EnvironmentError for control characters in the name of a file, by which it might end a line of the script.
 void expect_plain_name(const std::string& name);
+
+/// The name of a file that is dropped on the page, without folders. Throws EnvironmentError as expect_plain_name(), and
+/// for a name that is not that of a data file.
+std::filesystem::path name_of_data_file(const std::string& requested);
 
 /// The script of a new session; `lines` of loading_lines() for the name "data", or empty.
 std::string new_session(const std::string& title, const std::string& lines, const std::string& language);

@@ -2,12 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "app/page/page_files.h"
 #include "data_io/values/json_values.h"
 #include "data_io/values/value_limits.h"
 #include "documents/lua_text.h"
 #include "documents/text_lines.h"
-#include "platform/error.h"
 
 namespace dynlab::inline app {
 namespace {
@@ -30,12 +28,6 @@ std::string lua_of(const json& value) {
 }
 
 }  // namespace
-
-std::string workbench_prelude() {
-    for (const PageFile& file : page_files())
-        if (file.name == std::string_view("views.lua")) return std::string(file.text);
-    throw EnvironmentError("the program was built without views.lua");
-}
 
 std::string view_cells(const ViewOrder& order) {
     json quick = parsed_json(order.settings);

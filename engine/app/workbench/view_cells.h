@@ -24,9 +24,8 @@ struct ViewOrder {
 };
 DYNLAB_DESCRIBE(ViewOrder, variables, settings, data_until)
 
-/// The Lua that runs before a session's script: the functions that look at its variables.
-std::string workbench_prelude();
-/// Cells after a session's script: they pass its variables and the settings to the prelude, the quick views first.
+/// Cells after a session's script: they pass its variables and the settings to views.lua, which runs before the script,
+/// the quick views first.
 /// Throws ValueError for invalid names and for settings that are not JSON.
 std::string view_cells(const ViewOrder& order);
 

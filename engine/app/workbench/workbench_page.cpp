@@ -74,22 +74,13 @@ struct Opening {
 };
 DYNLAB_DESCRIBE(Opening, data, words, fresh)
 
-/// loading_lines(), with advice for the user of the page about a file without a sampling time.
-std::string lines_of_order(const DataSelection& order) {
-    try {
-        return loading_lines(order);
-    } catch (const UnknownSampling& error) {
-        throw EnvironmentError("{}; select the time column, or enter the sampling time below", error.message());
-    }
-}
-
 /// The script that a session begins with, where there is none yet.
 std::string first_script(const Subject& subject, Opening& opening) {
     std::string lines;
     if (!subject.data.empty()) {
         const DataChoice choice = describe_data(subject.data, false);
         try {
-            lines = lines_of_order(suggested_order(choice));
+            lines = loading_lines_for_page(suggested_order(choice));
         } catch (const EnvironmentError& error) {
             opening = {subject.data, error.what(), true};
         }
@@ -129,10 +120,7 @@ bool is_created(const fs::path& file) {
 
 /// The name under which a file that was dropped on the page is kept: no folder, no file of that name before.
 fs::path free_name(const std::string& requested) {
-    expect_plain_name(requested);
-    const fs::path name = fs::path(requested).filename();
-    if (!is_data_file(name))
-        throw EnvironmentError("{} is not a data file: expected .csv, .txt, .dat, .tsv, .xlsx or .mat", name.string());
+    const fs::path name = name_of_data_file(requested);
     fs::path file = name;
     for (int k = 2; !is_created(file); ++k)
         file = fmt::format("{}-{}{}", name.stem().string(), k, name.extension().string());
@@ -168,7 +156,7 @@ void serve_data(WebServer& server, WorkbenchSession& bench, const std::string& s
     server.on_post("/record", [&](const PageRequest& asked) {
         const DataSelection order = from_json<DataSelection>(asked.body);
         checked_data(order.data, subject);
-        const std::string lines = lines_of_order(order);
+        const std::string lines = loading_lines_for_page(order);
         bench.put([&](const std::string& script) { return with_data(script, order, lines); });
         return done();
     });

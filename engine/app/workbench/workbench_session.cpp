@@ -4,6 +4,7 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
+#include "app/page/page_files.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
@@ -16,6 +17,12 @@ namespace fs = std::filesystem;
 constexpr int kLookForInterrupt = 1000;  // ms
 
 }  // namespace
+
+std::string workbench_prelude() {
+    for (const PageFile& file : page_files())
+        if (file.name == std::string_view("views.lua")) return std::string(file.text);
+    throw EnvironmentError("the program was built without views.lua");
+}
 
 std::size_t ProcessPartRunner::run(const PercentScript& script, const std::set<fs::path>& changed) {
     return runner_.run(report_of_script(script, "session.html"), figures_.path(), changed);

@@ -11,6 +11,9 @@
 
 namespace dynlab::inline app {
 
+/// The Lua that runs before a session's script: the functions that look at its variables.
+std::string workbench_prelude();
+
 /// The processes that run a session's script.
 class ProcessPartRunner : public PartRunner {
   public:
