@@ -32,10 +32,6 @@ std::string printed_by(const RunRecord& record, const std::string& cell) {
     return text;
 }
 
-Reader reader_of_session(const std::string& language) {
-    return {catalog_of(language), &option_name};
-}
-
 }  // namespace
 
 BenchState::BenchState(std::filesystem::path file, PartRunner& runner) : runner_(runner), text_(std::move(file)) {
