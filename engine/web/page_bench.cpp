@@ -83,14 +83,17 @@ class PagePartRunner : public app::PartRunner {
         news.shown = world_->page.take();
         begun_ = false;
         ++at_;
-        if (news.record.error) {
-            at_ = parts_.size();
-            world_.reset();  // the part has left its work half done
-            done_ = 0;
-        } else if (!is_view(parts_[news.part])) {
+        if (news.record.error)
+            give_up();
+        else if (!is_view(parts_[news.part]))
             done_ = at_;
-        }
         return news;
+    }
+    /// The part that ran has left its work half done: the next run begins with the first part.
+    void give_up() {
+        at_ = parts_.size();
+        world_.reset();
+        done_ = 0;
     }
 
   private:
@@ -139,18 +142,15 @@ void tell() {
     if (const auto changes = bench()->state.changes()) send_json("{\"kind\":\"page\",\"page\":" + *changes + "}");
 }
 
-void run_news() {
-    PageBench& page = *bench();
-    page.state.run();
-    tell();
-    while (page.runner.running()) {
-        ProgressBar::set_listener([&page](std::size_t done, std::size_t total) {
-            const double share = total == 0 ? 0 : double(std::min(done, total)) / double(total);
-            page.state.take({.kind = "progress", .part = page.runner.at(), .progress = share});
-            tell();
-        });
-        page.state.take(page.runner.next());
+void run_next_part(PageBench& page) {
+    ProgressBar::set_listener([&page](std::size_t done, std::size_t total) {
+        const double share = total == 0 ? 0 : double(std::min(done, total)) / double(total);
+        page.state.take({.kind = "progress", .part = page.runner.at(), .progress = share});
         tell();
+    });
+    for (const bool begins : {true, false}) {
+        page.state.take(page.runner.next());
+        if (begins) tell();
     }
 }
 
@@ -234,9 +234,19 @@ BenchReply answer_bench(const BenchOrder& order) {
     }
 }
 
-void work_for_bench() {
-    while (bench()->state.must_run()) run_news();
+bool work_for_bench() {
+    PageBench& page = *bench();
+    if (page.state.must_run()) page.state.run();
+    try {
+        if (page.runner.running()) run_next_part(page);
+    } catch (...) {
+        page.runner.give_up();
+        page.state.run_was_stopped();
+        tell();
+        throw;
+    }
     tell();
+    return page.runner.running() || page.state.must_run();
 }
 
 }  // namespace dynlab::inline web

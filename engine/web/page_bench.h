@@ -31,8 +31,8 @@ DYNLAB_DESCRIBE(BenchReply, status, text)
 
 void open_bench(const BenchOpening& opening, const CallCache& calls);
 BenchReply answer_bench(const BenchOrder& order);
-/// Runs the script and its views as far as they are older than the last order. What the page shows is news: {kind:
-/// "page", page}.
-void work_for_bench();
+/// Runs the next part of the script and its views that is older than the last order, and returns whether more are left.
+/// What the page shows is news: {kind: "page", page}.
+bool work_for_bench();
 
 }  // namespace dynlab::inline web

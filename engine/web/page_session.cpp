@@ -117,9 +117,11 @@ const char* dynlab_ask_bench(const char* order_json) {
     return answer(json_of(web::answer_bench(from_json<web::BenchOrder>(order_json))));
 }
 
-/// Runs what the orders before have made old. Everything is news.
-void dynlab_work_for_bench() {
-    carry_out([&] { web::work_for_bench(); });
+/// web::work_for_bench(). Everything is news.
+bool dynlab_work_for_bench() {
+    bool goes_on = false;
+    carry_out([&] { goes_on = web::work_for_bench(); });
+    return goes_on;
 }
 
 /// The catalog of a language other than English, before anything is said in it.

@@ -111,7 +111,7 @@ std::map<std::string, std::string> page_files_of_site() {
                 files[name] = text;
             else if (name == "workbench.html" && has_session_of_workbench())
                 files["workbench/index.html"] = with_base(text, "../page/");
-            else if (!name.ends_with(".lua") && !name.ends_with(".html"))
+            else if (!name.ends_with(".html"))
                 files["page/" + name] = text;
         }
     for (const auto& [name, file] : kEditorFiles)

@@ -1,6 +1,6 @@
-// The session as the server reports it, and the orders to it: no other part of the workbench communicates with the
-// server. Each order that changes the script starts from the state that the previous order left.
-import { order } from "./orders.js";
+// The session as the engine reports it, and the orders to it: no other part of the workbench communicates with the
+// engine. Each order that changes the script starts from the state that the previous order left.
+import * as link from "./bench_link.js";
 import { say } from "./bench_words.js";
 
 export const session = { revision: 0, shown: 0, source: "", steps: [], cells: [], states: {}, views: {}, printed: {}, forms: [],
@@ -12,17 +12,17 @@ export const onChange = (listen) => listeners.push(listen);
 const tell = (changed) => { for (const listen of listeners) listen(changed); };
 
 /// The server's reply. For a server that has ended or cannot be reached, the page's state already reports the failure.
-export async function request(path, ask = fetch) {
+export async function request(path, ask = link.ask) {
   try {
     return await ask(path);
   } catch {
     throw new Error(say(session.over ? "ended" : "noAnswer"));
   }
 }
-export const upload = (file) => request(`upload?name=${encodeURIComponent(file.name)}`, (path) => order(path, file));
+export const upload = (file) => request(`upload?name=${encodeURIComponent(file.name)}`, (path) => link.send(path, file));
 export async function post(path, body, written = false) {
   const text = written ? body : JSON.stringify(body ?? {}), keepalive = document.hidden && text.length < kMostOfLeaving;
-  const answer = await request(path, () => order(path, text, { keepalive }));
+  const answer = await request(path, () => link.send(path, text, { keepalive }));
   if (!answer.ok && answer.status !== 409) throw new Error(await answer.text());
   return answer;
 }
@@ -187,10 +187,12 @@ function take(page) {
 
 let stream = null, here = false, onState = () => {};
 function open() {
-  stream = new EventSource("events");
-  stream.addEventListener("page", (event) => { here = true; onState("here"); take(JSON.parse(event.data)); });
-  stream.addEventListener("over", () => { stream.close(); session.over = true; onState("over"); });
-  stream.onerror = () => onState("away");
+  stream = link.listen({
+    page(state) { here = true; onState("here"); take(state); },
+    over() { session.over = true; onState("over"); },
+    away: () => onState("away"),
+    trouble,
+  });
 }
 /// Browsers open six connections to one server, whatever the number of tabs: hidden tabs close theirs, when all their
 /// orders are done.

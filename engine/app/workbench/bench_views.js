@@ -1,5 +1,6 @@
 // The plots of a session, as many at once as wanted, and their messages.
 import { change, isOlder, look, request, session, settled, trouble } from "./bench_session.js";
+import { hasPrograms } from "./bench_link.js";
 import { Brushes } from "./bench_brushes.js";
 import { addModel, chosenStep, redraw } from "./bench_choice.js";
 import { button, element, typeset, why } from "./bench_fields.js";
@@ -152,7 +153,7 @@ function makeTile(name) {
   saved.append(...["↓", "PDF", "SVG", "PNG"].map((text) => element("option", { value: text.toLowerCase(), textContent: text })));
   saved.onchange = () => { if (saved.selectedIndex > 0) save({ what: "figure", view: name, format: saved.value }); saved.selectedIndex = 0; };
   const made = ["orders", "study", "reading"].includes(name) ? [button(say("remove"), () => deleteStep(keyOf(session.steps.find((step) => step.on && step.names[0] === roles()[name]))), { ariaLabel: say("labeled", say("remove"), viewName(name)) })] : [];
-  const tools = element("span", { className: "tools-of-tile" }, why(HELP[name]), ...(TABLES[name] ? [] : [saved]), ...(goesIntoReport(name) ? [into] : []), ...made, close);
+  const tools = element("span", { className: "tools-of-tile" }, why(HELP[name]), ...(TABLES[name] || !hasPrograms ? [] : [saved]), ...(goesIntoReport(name) ? [into] : []), ...made, close);
   node.append(element("header", {}, title, tools), body, words);
   for (const group of OVER_TIME) if (group.includes(name)) linkCursor(name, body, group);
   return { node, body, words, tools, title };

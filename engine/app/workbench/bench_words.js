@@ -2,7 +2,8 @@
 import { addWords, number, text, tr, trIn } from "./words.js";
 
 addWords({
-  undo: tr("Undo"), redo: tr("Redo"), pdf: tr("Report (PDF)"), script: tr("Script"), close: tr("Close"), views: tr("Views"),
+  undo: tr("Undo"), redo: tr("Redo"), pdf: tr("Report (PDF)"), reportScript: tr("Report (script)"), home: tr("Course"), newSession: tr("New session"),
+  reportHow: tr("The script in your downloads contains the report. The installed dynlab creates the PDF: dynlab report {}"), script: tr("Script"), close: tr("Close"), views: tr("Views"),
   why: tr("why?"), record: tr("Data"), preparation: tr("Preprocessing"), parts: tr("Estimation and validation"),
   estimate: tr("Estimate"), models: tr("Models"), known: tr("Known system"), reading: tr("Read by hand"),
   open: tr("Open data"), drop: tr("Drop a data file anywhere on this page, or choose one:"), file: tr("Choose a file"),

@@ -1,4 +1,5 @@
 // The workbench: a data set, its preparation, models and views, and next to them the script that contains all of it.
+import * as link from "./bench_link.js";
 import { change, connect, inTurn, onChange, post, request, session, settled, trouble } from "./bench_session.js";
 import { openFirst, recordPanel } from "./bench_record.js";
 import { partsPanel, preparationPanel } from "./bench_preparation.js";
@@ -180,6 +181,11 @@ $("show-script").onclick = () => {
   const hidden = document.body.classList.toggle("without-script");
   $("show-script").setAttribute("aria-pressed", String(!hidden));
 };
+/// A page without LaTeX downloads the script of the report.
+if (!link.hasPrograms) $("make-pdf").dataset.say = "reportScript";
+for (const [id, there] of [["home", link.home], ["renew", link.renew]]) $(id).hidden = !there;
+$("home").href = link.home ?? "";
+$("renew").onclick = () => told(link.renew());
 /// Saved under the session's name: the browser would block a window that opens automatically, later than the click.
 $("make-pdf").onclick = async () => {
   making = true;
@@ -188,9 +194,7 @@ $("make-pdf").onclick = async () => {
     await inTurn(() => {});  // what was asked for and typed is in it
     await fillReport();
     await settled(() => session.shown === session.revision && !session.running, 3000);
-    const answer = await request("document.pdf");
-    if (answer.ok) download(session.file.split("/").pop().replace(/\.lua$/, "") + ".pdf", await answer.blob());
-    else trouble(await answer.text());
+    await takeReport();
   } catch (error) {
     trouble(error.message);
   } finally {
@@ -199,6 +203,16 @@ $("make-pdf").onclick = async () => {
     if (document.activeElement === document.body) $("make-pdf").focus();
   }
 };
+async function takeReport() {
+  const name = session.file.split("/").pop();
+  if (!link.hasPrograms) {
+    download(name, new Blob([session.source], { type: "text/plain" }));
+    return trouble(say("reportHow", name));
+  }
+  const answer = await request("document.pdf");
+  if (answer.ok) download(name.replace(/\.lua$/, "") + ".pdf", await answer.blob());
+  else trouble(await answer.text());
+}
 document.addEventListener("keydown", (event) => {
   if (!(event.ctrlKey || event.metaKey) || event.target.closest(".CodeMirror, input, textarea")) return;
   if (event.key === "z" && !event.shiftKey) order("undo");

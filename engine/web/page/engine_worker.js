@@ -2,7 +2,7 @@
 // compiles the engine once and hands it to each worker, so that Stop can end one and begin the next.
 //
 // It gets {act: "begin", script, compiled, data, home, catalogs}, then {act: "files", folder, files}, "run", "check", "pack", "ask" and
-// "lint"; it answers {id, answer} or {id, refusal} and sends {news} as engine/web/page_world.h describes them.
+// "lint", or for the workbench "openBench", "askBench" and "workForBench"; it answers {id, answer} or {id, refusal} and sends {news} as engine/web/page_world.h describes them.
 "use strict";
 
 let engine = null;
@@ -46,6 +46,7 @@ function putDataSets(index, address) {
   }
 }
 
+const languageOf = (source) => /^--\s*language:\s*(\w+)/m.exec(source)?.[1];
 let folder = "";
 const spoken = new Set(["en"]);
 /// The engine's messages in a language, if the site has them.
@@ -98,12 +99,27 @@ const acts = {
     folder = home;
   },
   files: ({ folder, files }) => putFiles(folder, files),
+  putFile({ path, bytes }) {
+    engine.FS.mkdirTree(path.slice(0, path.lastIndexOf("/")) || "/");
+    engine.FS.writeFile(path, bytes);
+  },
+  file: ({ path }) => engine.FS.readFile(path),
+  openBench({ opening }) {
+    speak(languageOf(opening.source));
+    engine.ccall("dynlab_open_bench", null, ["string"], [JSON.stringify(opening)]);
+  },
+  askBench({ order, language }) {
+    speak(language);
+    if (order.path === "script") speak(languageOf(JSON.parse(order.body).text ?? ""));
+    return JSON.parse(engine.ccall("dynlab_ask_bench", "string", ["string"], [JSON.stringify(order)]));
+  },
+  workForBench: () => engine.ccall("dynlab_work_for_bench", "number", [], []) !== 0,
   run({ order }) {
-    speak(/^--\s*language:\s*(\w+)/m.exec(order.source)?.[1]);
+    speak(languageOf(order.source));
     engine.ccall("dynlab_run", null, ["string"], [JSON.stringify(order)]);
   },
   check({ order }) {
-    speak(/^--\s*language:\s*(\w+)/m.exec(order.source)?.[1]);
+    speak(languageOf(order.source));
     engine.ccall("dynlab_check", null, ["string"], [JSON.stringify(order)]);
   },
   ask: ({ question }) => JSON.parse(engine.ccall("dynlab_ask", "string", ["string"], [JSON.stringify(question)])),

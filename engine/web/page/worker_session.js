@@ -7,7 +7,7 @@ const kFolder = "/work";
 const here = new URL(".", import.meta.url);
 
 /// Throws Error with one sentence's key ("noEngine") where this browser cannot run it.
-class Engine {
+export class Engine {
   constructor(root) {
     Object.assign(this, { root, worker: null, compiled: null, waiting: new Map(), next: 0, heard: () => {} });
   }
