@@ -204,7 +204,8 @@ TEST(help, finds_functions_by_terms_of_other_programs) {
 
 /// The names in calls of help, and in commands `dynlab help NAME`, that a text advises.
 std::vector<std::string> advised_in(const std::string& text) {
-    static const std::regex call(R"re(help\(\\?"([^"\\]+)\\?"\))re"), command("dynlab help ([a-z][a-z_0-9-]*)");
+    static const std::regex call(R"re(help\(\\?"([^"\\]+)\\?"\))re"),
+        command(R"(dynlab help ([a-z][a-z_0-9-]*(?:\.[a-z]\w*)?))");
     std::vector<std::string> names;
     for (const std::regex& advice : {call, command})
         for (std::sregex_iterator found(text.begin(), text.end(), advice), end; found != end; ++found)
