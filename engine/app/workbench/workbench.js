@@ -183,9 +183,13 @@ $("show-script").onclick = () => {
 };
 /// A page without LaTeX downloads the script of the report.
 if (!link.hasPrograms) $("make-pdf").dataset.say = "reportScript";
-for (const [id, there] of [["home", link.home], ["renew", link.renew]]) $(id).hidden = !there;
-$("home").href = link.home ?? "";
-$("renew").onclick = () => told(link.renew());
+function addToBar(behind, tag, words, what) {
+  const node = Object.assign(document.createElement(tag), what);
+  node.dataset.say = words;
+  behind.after(node);
+}
+if (link.home) addToBar($("state"), "a", "home", { href: link.home });
+if (link.renew) addToBar($("make-pdf"), "button", "newSession", { onclick: () => told(link.renew()) });
 /// Saved under the session's name: the browser would block a window that opens automatically, later than the click.
 $("make-pdf").onclick = async () => {
   making = true;
