@@ -128,9 +128,10 @@ class PagePartRunner : public app::PartRunner {
 struct PageBench {
     PagePartRunner runner;
     app::BenchState state;
+    std::vector<std::string> told_past;
 
     PageBench(const BenchOpening& opening, const CallCache& calls)
-        : runner(calls, opening.prelude), state(opening.file, runner) {}
+        : runner(calls, opening.prelude), state(opening.file, runner, opening.past), told_past(opening.past) {}
 };
 
 std::unique_ptr<PageBench>& bench() {
@@ -138,8 +139,22 @@ std::unique_ptr<PageBench>& bench() {
     return the_one;
 }
 
+/// Those that a page keeps.
+std::vector<std::string> last_steps(const std::vector<std::string>& past) {
+    constexpr std::size_t kMaxSteps = 50;
+    return {past.end() - std::ptrdiff_t(std::min(past.size(), kMaxSteps)), past.end()};
+}
+
 void tell() {
-    if (const auto changes = bench()->state.changes()) send_json("{\"kind\":\"page\",\"page\":" + *changes + "}");
+    const auto changes = bench()->state.changes();
+    if (!changes) return;
+    std::string news = "{\"kind\":\"page\",\"page\":" + *changes;
+    const std::vector<std::string> past = last_steps(bench()->state.text().past());
+    if (past != bench()->told_past) {
+        news += ",\"past\":" + nlohmann::json(past).dump();
+        bench()->told_past = past;
+    }
+    send_json(news + "}");
 }
 
 void run_next_part(PageBench& page) {

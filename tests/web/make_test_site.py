@@ -23,7 +23,7 @@ EDITOR = {"codemirror.js": "codemirror.js", "codemirror.css": "codemirror.css", 
           "codemirror-fold.js": "addon/fold/foldcode.js", "codemirror-gutter.js": "addon/fold/foldgutter.js"}
 SHOWN = ["words", "plot_drawing", "motion", "plot_copies", "plot_table", "plot", "choices"]
 POLICY = ("default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; connect-src 'self'; worker-src 'self'; manifest-src 'self'; "
-          "img-src 'self' data: blob:; style-src 'self' 'unsafe-inline'; base-uri 'none'; form-action 'none'")
+          "img-src 'self' data: blob:; style-src 'self' 'unsafe-inline'; base-uri 'self'; form-action 'none'")
 
 
 def cells_of(script):
@@ -95,10 +95,14 @@ def main(program, source, engine, folder, *lessons):
     shutil.rmtree(site, ignore_errors=True)
     page = site / "page"
     page.mkdir(parents=True)
-    for pages in [source / "engine/app/page", source / "engine/web/page"]:
+    for pages in [source / "engine/app/page", source / "engine/app/workbench", source / "engine/web/page"]:
         for file in pages.iterdir():
-            if file.suffix in (".js", ".css"):
+            if file.suffix in (".js", ".css", ".lua"):
                 shutil.copy(file, page)
+    (site / "workbench").mkdir()
+    workbench = (source / "engine/app/workbench/workbench.html").read_text()
+    base = f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">\n<base href="../page/">\n'
+    (site / "workbench/index.html").write_text(workbench.replace("<head>\n", "<head>\n" + base))
     (page / "sw.js").rename(site / "sw.js")
     for name, file in EDITOR.items():
         if (CODE_MIRROR / file).exists():

@@ -1,6 +1,5 @@
 #include "app/page/page_routes.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <span>
 
@@ -10,6 +9,7 @@
 #include "documents/html/web_page.h"
 #include "platform/atomic_file.h"
 #include "platform/program_lookup.h"
+#include "workflow/site/site_page.h"
 
 namespace dynlab::inline app {
 namespace {
@@ -60,16 +60,10 @@ std::string style_of_documents() {
     return read_text(shared_folder() / "report_templates/html/document.css");
 }
 
-/// Whether the workbench can run without a server: engine/web/page has a session for it.
-bool has_session_of_workbench() {
-    return std::ranges::any_of(web_page_files(),
-                               [](const PageFile& file) { return file.name.find("bench") != std::string_view::npos; });
-}
-
-/// The page beside the folder whose files it names.
-std::string with_base(std::string html, const std::string& folder) {
+/// The workbench in a folder of its own beside that of the files it names.
+std::string workbench_of_site(std::string html) {
     const std::string head = "<head>\n";
-    html.insert(html.find(head) + head.size(), "<base href=\"" + folder + "\">\n");
+    html.insert(html.find(head) + head.size(), std::string(kSitePolicy) + "<base href=\"../page/\">\n");
     return html;
 }
 
@@ -109,8 +103,8 @@ std::map<std::string, std::string> page_files_of_site() {
             const std::string name(file.name), text(file.text);
             if (name == "sw.js")
                 files[name] = text;
-            else if (name == "workbench.html" && has_session_of_workbench())
-                files["workbench/index.html"] = with_base(text, "../page/");
+            else if (name == "workbench.html")
+                files["workbench/index.html"] = workbench_of_site(text);
             else if (!name.ends_with(".html"))
                 files["page/" + name] = text;
         }

@@ -34,7 +34,9 @@ std::string printed_by(const RunRecord& record, const std::string& cell) {
 
 }  // namespace
 
-BenchState::BenchState(std::filesystem::path file, PartRunner& runner) : runner_(runner), text_(std::move(file)) {
+BenchState::BenchState(std::filesystem::path file, PartRunner& runner, std::vector<std::string> past)
+    : runner_(runner), text_(std::move(file)) {
+    text_.set_past(std::move(past));
     looked_at_.settings = "{}";
 }
 

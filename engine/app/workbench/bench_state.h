@@ -32,7 +32,8 @@ class PartRunner {
 /// time.
 class BenchState {
   public:
-    BenchState(std::filesystem::path file, PartRunner& runner);
+    /// With the `past` of an earlier session of the file, as SessionText::past().
+    BenchState(std::filesystem::path file, PartRunner& runner, std::vector<std::string> past = {});
 
     std::optional<std::size_t> change(const ScriptOrder& order);  ///< as SessionText::obey(); the revision then
     void put(const std::function<std::string(const std::string&)>& make);  ///< from the current script

@@ -20,7 +20,8 @@ const kFolder = "/bench", kFile = `${kFolder}/session.lua`, kDropped = "/dropped
 const kPause = 300;  // ms of typing before the script is stored
 const keyOfFile = (name) => `${kKey} ${name}`;
 const engine = new Engine(root);
-let source = "", files = [], fresh = true, cell = "";  // files: names of the user's data files; cell: the one that runs
+// past: scripts before this one, for undo; files: names of the user's data files; cell: the one that runs
+let source = "", past = [], files = [], fresh = true, cell = "";
 let prelude = null, writer = null, opened = null, timer = 0;
 let heard = { page() {}, trouble() {} };
 
@@ -31,7 +32,8 @@ async function begin() {
   writer = await oneWriter(kKey, (writes) => { if (writes) store(); });
   const stored = await storedWork(kKey);
   source = stored?.source ?? "";
-  files = (stored?.files ?? []).filter((name) => source.includes(name));
+  past = stored?.past ?? [];
+  files = (stored?.files ?? []).filter((name) => [source, ...past].some((script) => script.includes(name)));
   fresh = source === "";
   await start("");
 }
@@ -46,7 +48,7 @@ async function start(stopped) {
     const bytes = await storedWork(keyOfFile(name));
     if (bytes) await engine.send("putFile", { path: `${kFolder}/${name}`, bytes });
   }
-  await engine.send("openBench", { opening: { file: kFile, source, prelude, stopped } });
+  await engine.send("openBench", { opening: { file: kFile, source, past, prelude, stopped } });
 }
 const open = () => {
   opened ??= begin();
@@ -83,7 +85,7 @@ async function tellWhole() {
 }
 
 async function store() {
-  if (writer?.writes) await storeWork(kKey, { source, files });
+  if (writer?.writes) await storeWork(kKey, { source, past, files });
 }
 function take(page) {
   if (page.source !== undefined && page.source !== source) {
@@ -95,7 +97,10 @@ function take(page) {
   heard.page({ ...page, unsaved: writer?.writes === false ? say("openElsewhere") : kept() ? "" : say("keepsNothing") });
 }
 engine.heard = (news) => {
-  if (news.kind === "page") take(news.page);
+  if (news.kind === "page") {
+    past = news.past ?? past;
+    take(news.page);
+  }
   else if (news.error) heard.trouble(news.error.text);
 };
 window.addEventListener("pagehide", () => { clearTimeout(timer); store(); });
@@ -163,6 +168,7 @@ export async function renew() {
   clearTimeout(timer);
   for (const name of files) await storeWork(keyOfFile(name), undefined);
   source = "";
+  past = [];
   files = [];
   await store();
   location.reload();

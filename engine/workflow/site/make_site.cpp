@@ -47,11 +47,8 @@ class SiteMaker {
   public:
     explicit SiteMaker(const SiteRequest& request) : request_(request) {
         const fs::path shared = shared_folder() / "report_templates/html";
-        const auto has = [&](const char* file) { return request_.engine && request_.page_files.count(file) > 0; };
         frame_.style = read_file(shared / "document.css") + read_file(shared / "site.css");
         frame_.runs = request_.engine.has_value();
-        frame_.workbench = has("workbench/index.html");
-        frame_.offline = has("sw.js");
     }
 
     SiteResult make() {

@@ -124,7 +124,7 @@ SitePage course_page(const std::vector<SitePage>& pages, const std::string& lang
                   : Message("This site was created without the engine for browsers: lessons show the results of a run, "
                             "and their cells cannot be run here.")));
     main += part("course", Message("Lessons"), list_of_lessons(pages, language, root));
-    if (site.workbench)
+    if (site.runs)
         main += part("workbench", Message("Workbench"),
                      "<ul class=\"pages\">\n" +
                          entry("workbench/index.html", Message("Workbench"),

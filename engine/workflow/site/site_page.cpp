@@ -193,6 +193,11 @@ std::string with_links_to_pages(const SitePage& page, const std::map<std::string
     return result.append(html, at);
 }
 
+const char* const kSitePolicy =
+    "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'self' file: "
+    "'wasm-unsafe-eval'; connect-src 'self'; worker-src 'self'; manifest-src 'self'; img-src 'self' file: data: blob:; "
+    "style-src 'self' file: 'unsafe-inline'; base-uri 'self'; form-action 'none'\">\n";
+
 std::string framed_page(const SitePage& page, const SiteFrame& frame) {
     std::string body = page.body, links, scripts;
     const std::size_t main = body.find("<main>");
@@ -200,22 +205,20 @@ std::string framed_page(const SitePage& page, const SiteFrame& frame) {
     const std::string root = page.root();
     for (const std::string& style : page.styles)
         links += fmt::format("<link rel=\"stylesheet\" href=\"{}{}\">\n", root, style);
-    if (frame.offline) links += fmt::format("<link rel=\"manifest\" href=\"{}manifest.webmanifest\">\n", root);
+    if (frame.runs) links += fmt::format("<link rel=\"manifest\" href=\"{}manifest.webmanifest\">\n", root);
     for (const char* script : {"catalogs", "plot", "document", "site"})
         scripts += fmt::format("<script src=\"{}page/{}.js\"></script>\n", root, script);
     for (const std::string& module : page.modules)
         scripts += fmt::format("<script src=\"{}{}\" type=\"module\"></script>\n", root, module);
     return fmt::format(
         "<!DOCTYPE html>\n<html lang=\"{}\" data-root=\"{}\"{}>\n<head>\n<meta charset=\"utf-8\">\n"
-        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'self' file: "
-        "'wasm-unsafe-eval'; connect-src 'self'; worker-src 'self'; manifest-src 'self'; img-src 'self' file: data: "
-        "blob:; style-src 'self' file: 'unsafe-inline'; base-uri 'none'; form-action 'none'\">\n"
+        "{}"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
         "<meta name=\"generator\" content=\"dynlab\">\n<title>{} – dynlab</title>\n"
         "<link rel=\"icon\" href=\"{}icon.svg\">\n<style>\n{}</style>\n{}</head>\n"
         "<body class=\"site {}\">\n{}{}\n{}</body>\n</html>\n",
-        page.language, root, frame.offline ? " data-offline" : "", html_text(page.title), root, frame.style, links,
-        page.kind, bar_of(page, frame.workbench), body, scripts);
+        page.language, root, frame.runs ? " data-offline" : "", kSitePolicy, html_text(page.title), root, frame.style,
+        links, page.kind, bar_of(page, frame.runs), body, scripts);
 }
 
 }  // namespace dynlab::inline workflow

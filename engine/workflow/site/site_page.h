@@ -26,10 +26,8 @@ struct SitePage {
 
 /// What all pages of a site share.
 struct SiteFrame {
-    std::string style;       ///< CSS
-    bool runs = false;       ///< the site has the engine: cells run
-    bool workbench = false;  ///< it has workbench/index.html
-    bool offline = false;    ///< it has a service worker, sw.js
+    std::string style;  ///< CSS
+    bool runs = false;  ///< the site has the engine: cells run, there is a workbench, and pages open offline
 };
 
 /// The files of a folder, by name.
@@ -51,6 +49,9 @@ std::string with_pictures_apart(const std::string& html, const std::string& root
 /// not in links, blocks of code and choices, and not on the page itself.
 std::string with_links_to_pages(const SitePage& page, const std::map<std::string, std::string>& pages);
 
+/// The security policy of the site's pages (a meta element): they load from the site alone, also where it is opened as
+/// files.
+extern const char* const kSitePolicy;
 /// The whole page with the site's bar, policy, style and scripts.
 std::string framed_page(const SitePage& page, const SiteFrame& frame);
 
