@@ -41,7 +41,7 @@ struct BenchWorld {
         runtime.services() = {.language = &language, .sliders = &sliders};
         page.reader = {catalog_of(script.header.language), &option_name};
         runtime.add_functions(app::page_functions(), page);
-        const RunRecord made = runtime.run_code(prelude, "workbench");
+        const RunRecord made = runtime.run_library(prelude, "workbench");
         if (made.error) throw EnvironmentError(made.error->text());
         runtime.begin_parts(script);
     }

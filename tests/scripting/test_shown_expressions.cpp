@@ -135,7 +135,7 @@ TEST(shown_expressions, show_figures_too) {
 TEST(shown_expressions, rows_of_a_matrix_are_not_set_apart_by_semicolons) {
     EXPECT_THAT(error_of("local x = 1\nlocal A = matrix{{1, 2;\n3, 4}}"),
                 HasSubstr("lesson.lua:2: each row of a matrix is a table: matrix{{1, 2}, {3, 4}}"));
-    EXPECT_FALSE(line_with_semicolon_rows("local t = {1; 2}\nlocal A = matrix{{1, 2}, {3, 4}};"));
+    EXPECT_FALSE(misread_line_of("local t = {1; 2}\nlocal A = matrix{{1, 2}, {3, 4}};"));
 }
 
 TEST(shown_expressions, files_of_the_folder_can_be_required) {

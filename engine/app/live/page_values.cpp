@@ -19,77 +19,86 @@ using nlohmann::json;
 
 constexpr int kMaxDepth = 12;  // tables in tables; one that holds itself ends there
 
-json number_json(double value) {
-    return std::isfinite(value) ? json(value) : json();
+std::string json_text(const json& value) {
+    return value.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
-json matrix_json(NumericBlock& block) {
-    json rows = json::array();
-    for (Index i = 0; i < block.rows; ++i) {
-        json row = json::array();
-        for (Index k = 0; k < block.columns; ++k) row.push_back(number_json(block.matrix()(i, k)));
-        rows.push_back(std::move(row));
-    }
-    return rows;
+std::string number_json(double value) {
+    return std::isfinite(value) ? json_text(value) : "null";
 }
 
-json vector_json(NumericBlock& block) {
-    json list = json::array();
-    for (const double value : block.vector()) list.push_back(number_json(value));
-    return list;
+/// Adds an entry to the text of a list or an object that is not closed yet.
+void add_entry(std::string& text, const std::string& entry) {
+    if (text.size() > 1) text += ',';
+    text += entry;
 }
 
-json figure_json(ScriptFigure& shown, const Reader& reader) {
+template <typename Values>
+std::string list_json(const Values& values) {
+    std::string list = "[";
+    for (const double value : values) add_entry(list, number_json(value));
+    return list + "]";
+}
+
+std::string matrix_json(NumericBlock& block) {
+    std::string rows = "[";
+    for (Index i = 0; i < block.rows; ++i) add_entry(rows, list_json(block.matrix().row(i)));
+    return rows + "]";
+}
+
+std::string figure_json(ScriptFigure& shown, const Reader& reader) {
     shown.used = true;
-    return json::parse(plot_data(shown.figure, reader));
+    return plot_data(shown.figure, reader);
 }
 
-json value_json(lua_State* L, int index, int depth, const PageValues& page);
+std::string value_json(lua_State* L, int index, int depth, const PageValues& page);
 
 /// A list where the keys are 1, 2, ...; else an object of those that are texts.
-json table_json(lua_State* L, int index, int depth, const PageValues& page) {
+std::string table_json(lua_State* L, int index, int depth, const PageValues& page) {
     const auto length = static_cast<lua_Integer>(lua_rawlen(L, index));
-    if (depth > kMaxDepth) return nullptr;
+    if (depth > kMaxDepth) return "null";
     luaL_checkstack(L, 4, "tables in tables");
-    json list = json::array(), object = json::object();
-    for (lua_Integer i = 1; i <= length; ++i) {
-        lua_rawgeti(L, index, i);
-        list.push_back(value_json(L, lua_gettop(L), depth + 1, page));
-        lua_pop(L, 1);
-    }
+    std::string object = "{";
     for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
         if (lua_type(L, -2) != LUA_TSTRING) continue;
         const std::string name = lua_tostring(L, -2);
-        object[name] = name == "error" && lua_type(L, -1) == LUA_TSTRING
-                           ? json(message_text(error_at(L, -1).with_place(), page.reader))
-                           : value_json(L, lua_gettop(L), depth + 1, page);
+        add_entry(object, json_text(name) + ':' +
+                              (name == "error" && lua_type(L, -1) == LUA_TSTRING
+                                   ? json_text(message_text(error_at(L, -1).with_place(), page.reader))
+                                   : value_json(L, lua_gettop(L), depth + 1, page)));
     }
-    return object.empty() ? list : object;
+    if (object != "{") return object + "}";
+    std::string list = "[";
+    for (lua_Integer i = 1; i <= length; ++i) {
+        lua_rawgeti(L, index, i);
+        add_entry(list, value_json(L, lua_gettop(L), depth + 1, page));
+        lua_pop(L, 1);
+    }
+    return list + "]";
 }
 
-json value_json(lua_State* L, int index, int depth, const PageValues& page) {
+std::string value_json(lua_State* L, int index, int depth, const PageValues& page) {
     switch (lua_type(L, index)) {
         case LUA_TBOOLEAN:
-            return lua_toboolean(L, index) != 0;
+            return lua_toboolean(L, index) != 0 ? "true" : "false";
         case LUA_TNUMBER:
             return number_json(lua_tonumber(L, index));
         case LUA_TSTRING:
-            return lua_tostring(L, index);
+            return json_text(lua_tostring(L, index));
         case LUA_TTABLE:
             return table_json(L, index, depth, page);
         default:
             break;
     }
-    if (NumericBlock* const block = to_vector(L, index)) return vector_json(*block);
+    if (NumericBlock* const block = to_vector(L, index)) return list_json(block->vector());
     if (NumericBlock* const block = to_matrix(L, index)) return matrix_json(*block);
     if (FigurePointer* const figure = to_object<FigurePointer>(L, index)) return figure_json(**figure, page.reader);
-    return nullptr;
+    return "null";
 }
 
 int show(Call& call) {
     PageValues& page = call.owner<PageValues>();
-    const json value = value_json(call.state(), 2, 0, page);
-    page.show(call.text(1, "name"), value.dump(-1, ' ', false, json::error_handler_t::replace));
+    page.show(call.text(1, "name"), value_json(call.state(), 2, 0, page));
     return 0;
 }
 

@@ -58,7 +58,7 @@ struct RunEnvironment {
         page.reader = {catalog_of(report_language), &option_name};
         if (!prelude.empty()) {
             runtime.add_functions(page_functions(), page);
-            const RunRecord made = runtime.run_code(prelude, "workbench");
+            const RunRecord made = runtime.run_library(prelude, "workbench");
             if (made.error) throw EnvironmentError(made.error->text());
         }
         sliders.clamped = true;  // it was chosen before the script had this range

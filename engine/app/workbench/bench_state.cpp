@@ -32,6 +32,13 @@ std::string printed_by(const RunRecord& record, const std::string& cell) {
     return text;
 }
 
+/// Adds a member to the JSON of an object, without reading that of its value, which may be long.
+void add_member(std::string& object, const std::string& name, const std::string& value) {
+    object.pop_back();
+    if (object != "{") object += ',';
+    object += ::nlohmann::json(name).dump() + ':' + value + '}';
+}
+
 }  // namespace
 
 BenchState::BenchState(std::filesystem::path file, PartRunner& runner, std::vector<std::string> past)
@@ -267,11 +274,8 @@ std::string BenchState::json(bool all) const {
                          {"place", fmt::format("{}:{}", error_->file, error_->line)},
                          {"line", error_->line_in(text_.file().filename().string())}};
     if (all) page["file"] = std::filesystem::absolute(text_.file()).string();
-    if (all || sent_language_ != page_language)
-        page["forms"] = ::nlohmann::json::parse(json_of(estimator_forms(reader)));
     if (all || sent_revision_ != text_.revision()) {
         page["source"] = text_.text();
-        page["steps"] = ::nlohmann::json::parse(json_of(session_steps(text_.text())));
         ::nlohmann::json& cells = page["cells"] = ::nlohmann::json::array();
         try {
             const PercentScript script = parse_percent_script(text_.text(), text_.file());
@@ -281,10 +285,14 @@ std::string BenchState::json(bool all) const {
         }
     }
     page["printed"] = printed_;
-    ::nlohmann::json& views = page["views"] = ::nlohmann::json::object();
+    std::string text = page.dump(-1, ' ', false, ::nlohmann::json::error_handler_t::replace);
+    std::string views = "{}";
     for (const auto& [name, view] : views_)
-        if (all || view.fresh) views[name] = ::nlohmann::json::parse(view.json);
-    return page.dump(-1, ' ', false, ::nlohmann::json::error_handler_t::replace);
+        if (all || view.fresh) add_member(views, name, view.json);
+    add_member(text, "views", views);
+    if (all || sent_language_ != page_language) add_member(text, "forms", json_of(estimator_forms(reader)));
+    if (all || sent_revision_ != text_.revision()) add_member(text, "steps", json_of(session_steps(text_.text())));
+    return text;
 }
 
 std::optional<std::string> BenchState::changes() {

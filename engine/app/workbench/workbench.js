@@ -21,12 +21,13 @@ let connection = "here", opened = false, making = false, viewsBefore = "";
 let languageBefore = null;
 const languageOfScript = () => /^-- language:\s*(\w+)/m.exec(session.source)?.[1];
 function speak() {
-  useLanguage(languageOfScript() ?? "en");
+  const code = languageOfScript() ?? "en";
+  if (code === languageBefore) return;
+  useLanguage(code);
   label();
-  const { lang } = document.documentElement;
   $("language").value = language();
-  if (languageBefore && languageBefore !== lang) { renewTiles(); viewsBefore = ""; }
-  languageBefore = lang;
+  if (languageBefore) { renewTiles(); viewsBefore = ""; }
+  languageBefore = code;
 }
 const turnTo = (code) => change(() => ({ text: reportIn(inLanguage(session.source, code), code) }));
 /// Each language is called as it calls itself.

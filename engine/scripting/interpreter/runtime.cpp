@@ -172,6 +172,10 @@ RunRecord Runtime::run_code(const std::string& code, const std::string& name) {
     return run(single_cell(code, name));
 }
 
+RunRecord Runtime::run_library(const std::string& code, const std::string& name) {
+    return run_recorded(single_cell(code, name), [&] { run_chunk(code, nullptr); });
+}
+
 RunRecord Runtime::run_statement(const PromptStatement& statement, const std::string& name) {
     return run_recorded(single_cell(statement.source, name), [&] { run_with_variables(statement); });
 }
@@ -230,17 +234,20 @@ RunRecord Runtime::run_recorded(const PercentScript& script, const std::function
     return record;
 }
 
-/// A statement has the prompt's variables as its environment and is called by show_values when its values are wanted.
 void Runtime::run_source(const std::string& source, const PromptStatement* statement) {
+    if (const std::optional<MisreadLine> misread = misread_line_of(source))
+        return record_error({misread->sentence, context_->script_name, misread->line});
+    run_chunk(source, statement);
+}
+
+/// A statement has the prompt's variables as its environment and is called by show_values when its values are wanted.
+void Runtime::run_chunk(const std::string& source, const PromptStatement* statement) {
     RuntimeContext& context = *context_;
     lua_State* L = context.main;
     lua_pushcfunction(L, final_message);
     const bool shows = statement != nullptr && !statement->silent;
     if (shows) lua_pushcfunction(L, show_values);
     const std::string chunk_name = "@" + context.script_name;
-    if (const std::optional<MisreadLine> misread = misread_line_of(source)) {
-        return record_error({misread->sentence, context.script_name, misread->line});
-    }
     int status = luaL_loadbufferx(L, source.data(), source.size(), chunk_name.c_str(), "t");
     if (status == LUA_OK) {
         if (statement != nullptr) {

@@ -41,6 +41,8 @@ class Runtime {
     RunRecord run(const PercentScript& script);
     /// The same for plain Lua text as a single cell "cell-1"; messages use `name` as the file's name.
     RunRecord run_code(const std::string& code, const std::string& name);
+    /// Runs Lua of the program itself, which shows nothing and is read as it is written: quicker than run_code().
+    RunRecord run_library(const std::string& code, const std::string& name);
     /// The same in parts, for a document that follows its script: begin_parts(), then every part of `script` in turn.
     /// Each part is a separate chunk with the variables that a prompt's statements share. Parts that have run stay
     /// unchanged when the next one is taken from a later text of the script. Returns everything recorded so far.
@@ -65,6 +67,7 @@ class Runtime {
     void throw_if_stopped();
     RunRecord run_recorded(const PercentScript& script, const std::function<void()>& work);
     void run_source(const std::string& source, const PromptStatement* statement);
+    void run_chunk(const std::string& source, const PromptStatement* statement);
     PlacedMessage error_of_run(int status) const;
     void record_error(PlacedMessage error);
     std::unique_ptr<RuntimeContext> context_;

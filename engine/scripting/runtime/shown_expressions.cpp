@@ -114,28 +114,31 @@ std::string with_shown_expressions(const std::string& source, const ShownCalls& 
     return with_shown_calls(with_shown_values(source), shown);
 }
 
-std::optional<int> line_with_semicolon_rows(const std::string& source) {
-    const std::vector<LuaToken> tokens = lua_tokens(source);
+namespace {
+
+using LuaTokens = std::vector<LuaToken>;
+
+int line_of(const std::string& source, const LuaToken& token) {
+    return 1 + static_cast<int>(
+                   std::count(source.begin(), source.begin() + static_cast<std::ptrdiff_t>(token.begin), '\n'));
+}
+
+std::optional<int> line_with_semicolon_rows(const std::string& source, const LuaTokens& tokens) {
     for (std::size_t i = 0; i + 1 < tokens.size(); ++i) {
         if (!tokens[i].is("matrix") || !tokens[i + 1].is("{")) continue;
         int depth = 0;
         for (std::size_t k = i + 1; k < tokens.size() && !tokens[k].is("function"); ++k) {
             if (tokens[k].is("{")) ++depth;
             if (tokens[k].is("}") && --depth == 0) break;
-            if (tokens[k].is(";"))
-                return 1 + static_cast<int>(std::count(
-                               source.begin(), source.begin() + static_cast<std::ptrdiff_t>(tokens[k].begin), '\n'));
+            if (tokens[k].is(";")) return line_of(source, tokens[k]);
         }
     }
     return std::nullopt;
 }
 
-namespace {
-
 constexpr int kMaxLookups = 200;  // each may go through the whole source
 
-std::optional<int> line_with_compared_place(const std::string& source) {
-    const std::vector<LuaToken> tokens = lua_tokens(source);
+std::optional<int> line_with_compared_place(const std::string& source, const LuaTokens& tokens) {
     const auto extreme = [&](std::size_t i) { return tokens[i].is("max") || tokens[i].is("min"); };
     // The place of the bracket that closes the one at `open`, and whether there is a comma between them.
     const auto closing = [&](std::size_t open) {
@@ -162,9 +165,7 @@ std::optional<int> line_with_compared_place(const std::string& source) {
         for (std::size_t k = i + 4; k + 1 < end; ++k) {
             if (!extreme(k) || !tokens[k + 1].is("(") || (!tokens[k - 1].is(",") && !tokens[k - 1].is("("))) continue;
             const auto [last, of_two] = closing(k + 1);
-            if (last + 1 == end && !of_two && (tokens[k - 1].is(",") || k == i + 4))
-                return 1 + static_cast<int>(std::count(
-                               source.begin(), source.begin() + static_cast<std::ptrdiff_t>(tokens[k].begin), '\n'));
+            if (last + 1 == end && !of_two && (tokens[k - 1].is(",") || k == i + 4)) return line_of(source, tokens[k]);
         }
     }
     return std::nullopt;
@@ -176,8 +177,7 @@ struct DecimalComma {
     std::string name, whole, fraction;
 };
 
-std::optional<DecimalComma> decimal_comma_of(const std::string& source) {
-    const std::vector<LuaToken> tokens = lua_tokens(source);
+std::optional<DecimalComma> decimal_comma_of(const std::string& source, const LuaTokens& tokens) {
     const auto whole = [](const LuaToken& token) {
         return token.kind == LuaToken::Kind::kNumber && token.text.find_first_not_of("0123456789") == token.text.npos;
     };
@@ -190,9 +190,8 @@ std::optional<DecimalComma> decimal_comma_of(const std::string& source) {
         const LuaToken &left = tokens[i + 2], &comma = tokens[i + 3], &right = tokens[i + 4];
         if (!whole(left) || !whole(right) || !comma.is(",") || comma.begin != left.end() || right.begin != comma.end())
             continue;
-        const auto before = source.begin() + static_cast<std::ptrdiff_t>(left.begin);
-        return DecimalComma{1 + static_cast<int>(std::count(source.begin(), before, '\n')), std::string(tokens[i].text),
-                            std::string(left.text), std::string(right.text)};
+        return DecimalComma{line_of(source, left), std::string(tokens[i].text), std::string(left.text),
+                            std::string(right.text)};
     }
     return std::nullopt;
 }
@@ -200,15 +199,16 @@ std::optional<DecimalComma> decimal_comma_of(const std::string& source) {
 }  // namespace
 
 std::optional<MisreadLine> misread_line_of(const std::string& source) {
-    if (const std::optional<int> line = line_with_semicolon_rows(source))
+    const LuaTokens tokens = lua_tokens(source);
+    if (const std::optional<int> line = line_with_semicolon_rows(source, tokens))
         return MisreadLine{
             *line,
             Message(
                 "each row of a matrix is a table: matrix{{1, 2}, {3, 4}}; a semicolon separates entries like a comma")};
-    if (const std::optional<int> line = line_with_compared_place(source))
+    if (const std::optional<int> line = line_with_compared_place(source, tokens))
         return MisreadLine{*line, Message("max(v) and min(v) also return the index of the element, which math.max and "
                                           "math.min would treat as another value: write math.max(x, (max(v)))")};
-    if (const std::optional<DecimalComma> number = decimal_comma_of(source)) {
+    if (const std::optional<DecimalComma> number = decimal_comma_of(source, tokens)) {
         const auto& [line, name, whole, fraction] = *number;
         return MisreadLine{
             line, Message("{} = {},{} assigns {} the value {}: write a decimal number with a point, {}.{}", name, whole,

@@ -16,10 +16,6 @@ namespace dynlab::inline scripting {
 /// unchanged, and so is source that remains invalid. `shown`: functions whose calls also show their values.
 std::string with_shown_expressions(const std::string& source, const ShownCalls& shown);
 
-/// The line in which the rows of matrix{...} are set apart by semicolons, as MATLAB writes them: Lua takes a semicolon
-/// for a comma, so that one long row would come of it.
-std::optional<int> line_with_semicolon_rows(const std::string& source);
-
 /// A line that Lua takes for something else than its writer meant, and what to write instead.
 struct MisreadLine {
     int line;

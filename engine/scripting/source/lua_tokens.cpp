@@ -20,7 +20,8 @@ class Scanner {
 
     std::vector<LuaToken> scan() {
         while (offset_ < text_.size()) {
-            if (std::string_view(" \t\r\n\f\v").find(text_[offset_]) != std::string_view::npos) {
+            const char c = text_[offset_];
+            if (c == ' ' || (c >= '\t' && c <= '\r')) {
                 ++offset_;
             } else if (starts("--")) {
                 skip_comment();
@@ -34,7 +35,7 @@ class Scanner {
   private:
     using Kind = LuaToken::Kind;
 
-    bool starts(std::string_view word) const { return text_.substr(offset_, word.size()) == word; }
+    bool starts(std::string_view word) const { return text_.substr(offset_).starts_with(word); }
 
     void take(Kind kind, std::size_t end) {
         tokens_.push_back({kind, text_.substr(offset_, end - offset_), offset_});
@@ -52,7 +53,7 @@ class Scanner {
             return take(end ? Kind::kString : Kind::kUnfinished, end.value_or(text_.size()));
         }
         for (std::string_view sign : kLongSigns)
-            if (starts(sign)) return take(Kind::kSign, offset_ + sign.size());
+            if (c == sign.front() && starts(sign)) return take(Kind::kSign, offset_ + sign.size());
         take(Kind::kSign, offset_ + 1);
     }
 
