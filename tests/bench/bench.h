@@ -4,6 +4,10 @@
 #include <utility>
 #include <vector>
 
+namespace dynlab::test {
+class Browser;
+}
+
 namespace dynlab::bench {
 
 /// One line of the table of ratios: what was measured, against what, and the bar it must stay under.
@@ -33,8 +37,12 @@ void measure_grading(Report& report);
 void measure_course(Report& report);
 void measure_live(Report& report);       ///< needs Chromium and its driver
 void measure_workbench(Report& report);  ///< as well
-void measure_site(Report& report);       ///< as well
-void measure_web(Report& report);        ///< as well, and the engine for browsers (scripts/build web) and Node
+/// A session of the workbench: SRIVC on 1500 samples.
+extern const char* const kDraggedSession;
+/// Drags lambda of that session, which the browser shows, for five seconds. `where` is part of the row's name.
+void measure_dragging(Report& report, test::Browser& browser, const std::string& where);
+void measure_site(Report& report);  ///< as well
+void measure_web(Report& report);   ///< as well, and the engine for browsers (scripts/build web) and Node
 void measure_lua(Report& report);
 void measure_searches(Report& report);
 void measure_advice(Report& report);

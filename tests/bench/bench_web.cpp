@@ -218,6 +218,10 @@ void measure_web(Report& report) {
         report.results.push_back({fmt::format("srivc, {} samples, in the page (s)", samples), "the native program",
                                   seconds_in_page(browser, script, samples), native, 6, 3});
     }
+    browser.open(server.address("workbench/"));
+    wait(browser, "document.querySelector('.CodeMirror')");
+    browser.evaluate("document.querySelector('.CodeMirror').CodeMirror.setValue(" + json(kDraggedSession).dump() + ")");
+    measure_dragging(report, browser, " in the page");
     const double few = memory_after(bench, engine, 10);
     row("memory after 1,000 runs of lesson 2 (MB)", "300 MB", memory_after(bench, engine, kManyRuns), 300, 150);
     report.results.push_back({"the same", "after 10 runs", report.results.back().measured, few, 1, 0});

@@ -10,6 +10,7 @@
 #include "figures/figure.h"
 #include "figures/gnuplot_renderer.h"
 #include "figures/style.h"
+#include "platform/cache.h"
 #include "platform/child_process.h"
 #include "platform/temporary_folder.h"
 
@@ -25,6 +26,7 @@ inline Figure line_in_the_look_of(const Panel& panel, int shown) {
     lone.legend = LegendPlace::kNone;
     for (std::size_t i = 0; i < panel.curves.size(); ++i) {
         Curve curve = panel.curves[i];
+        if (!curve.label.empty()) curve.label = Message("curve");  // which is not drawn
         curve.x = Vector::LinSpaced(12, 0, 1);
         curve.y = Vector::Constant(12, static_cast<int>(i) == shown ? 0.5 : -9.0);
         if (curve.style == CurveStyle::kBand) {
@@ -62,7 +64,8 @@ class GreyLooks {
   public:
     enum class Of { kNamedCurves, kBands };
     explicit GreyLooks(const Panel& panel, Of of = Of::kNamedCurves) {
-        GnuplotRenderer renderer;
+        const Cache cache;  // most panels have looks that another one has, too
+        GnuplotRenderer renderer(&cache);
         const auto file = [this](int i) { return folder_.path() / (std::to_string(i) + ".pdf"); };
         std::vector<int> named;
         for (int i = 0; i < static_cast<int>(panel.curves.size()); ++i) {
