@@ -139,7 +139,7 @@ std::unique_ptr<PageBench>& bench() {
     return the_one;
 }
 
-/// Those that a page keeps.
+/// The last steps, which a page stores.
 std::vector<std::string> last_steps(const std::vector<std::string>& past) {
     constexpr std::size_t kMaxSteps = 50;
     return {past.end() - std::ptrdiff_t(std::min(past.size(), kMaxSteps)), past.end()};

@@ -119,4 +119,15 @@ TEST_F(session_text, what_another_program_wrote_before_an_undo_can_be_had_again)
     EXPECT_EQ(on_disk(), "b = 7\n");
 }
 
+TEST_F(session_text, history_of_an_earlier_session_can_be_undone) {
+    SessionText first(file);
+    first.put("a = 1\n");
+    first.put("a = 2\n");
+    SessionText second(file, first.past());
+    second.undo();
+    EXPECT_EQ(on_disk(), "a = 1\n");
+    second.undo();
+    EXPECT_FALSE(second.can_undo());
+}
+
 }  // namespace test_session_text

@@ -37,16 +37,17 @@ void measure_grading(Report& report);
 void measure_course(Report& report);
 void measure_live(Report& report);       ///< needs Chromium and its driver
 void measure_workbench(Report& report);  ///< as well
-/// A session of the workbench: SRIVC on 1500 samples.
-extern const char* const kDraggedSession;
-/// Drags lambda of that session, which the browser shows, for five seconds. `where` is part of the row's name.
-void measure_dragging(Report& report, test::Browser& browser, const std::string& where);
-void measure_site(Report& report);  ///< as well
-void measure_web(Report& report);   ///< as well, and the engine for browsers (scripts/build web) and Node
+void measure_site(Report& report);       ///< as well
+void measure_web(Report& report);        ///< as well, and the engine for browsers (scripts/build web) and Node
 void measure_lua(Report& report);
 void measure_searches(Report& report);
 void measure_advice(Report& report);
 void measure_grey_box(Report& report);
 void measure_cluster(Report& report);  ///< Slurm's row needs slurmctld and slurmd, and root
+
+/// A session of the workbench: SRIVC on 1500 samples.
+extern const char* const kDraggedSession;
+/// Drags lambda of that session, which the browser shows, for five seconds. `where` is part of the row's name.
+void measure_dragging(Report& report, test::Browser& browser, const std::string& where);
 
 }  // namespace dynlab::bench

@@ -22,6 +22,7 @@ using test::PageProgram;
 constexpr int kOpenings = 5;
 constexpr int kMillion = 1'000'000;
 constexpr double kFrame = 1.0 / 30;  ///< s
+
 double now() {
     return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 }

@@ -15,8 +15,6 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr char kOneModel[] = "document.querySelectorAll('.models tbody tr').length === 1";
-
 /// Collects what the page would save as files: {name, text}.
 constexpr char kCatchFiles[] =
     "window.saved = []; const url = URL.createObjectURL, click = HTMLAnchorElement.prototype.click; let blob;"
@@ -128,6 +126,7 @@ TEST_F(web_workbench, report_button_saves_a_script_that_makes_the_report) {
     const ChildResult made =
         site().bench().shell("cd " + folder.path().string() + " && $DYNLAB report session.lua -o session.html");
     EXPECT_EQ(made.exit_code, 0) << made.error_output;
+    EXPECT_THAT(text_of("session.html"), HasSubstr("Models"));
 }
 
 TEST_F(web_workbench, file_that_is_no_data_is_refused_in_a_sentence) {
@@ -146,6 +145,9 @@ TEST_F(web_workbench, new_session_deletes_the_old_one) {
         browser->becomes_true("document.querySelector('.CodeMirror') && !document.querySelector('.tile canvas')"));
     ASSERT_TRUE(is_ready(*browser));
     EXPECT_THAT(script(), Not(HasSubstr("plant")));
+    EXPECT_EQ(browser->evaluate("return import('./work_store.js').then(async ({ storedWork }) => (await "
+                                "storedWork('workbench plant.csv')) === undefined)"),
+              "true");
 }
 
 }  // namespace test_web_workbench

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "documents/html/plot_data.h"
@@ -58,16 +59,19 @@ std::string table_json(lua_State* L, int index, int depth, const PageValues& pag
     const auto length = static_cast<lua_Integer>(lua_rawlen(L, index));
     if (depth > kMaxDepth) return "null";
     luaL_checkstack(L, 4, "tables in tables");
-    std::string object = "{";
+    std::map<std::string, std::string> members;  // in one order, so that equal tables have equal texts
     for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
         if (lua_type(L, -2) != LUA_TSTRING) continue;
         const std::string name = lua_tostring(L, -2);
-        add_entry(object, json_text(name) + ':' +
-                              (name == "error" && lua_type(L, -1) == LUA_TSTRING
-                                   ? json_text(message_text(error_at(L, -1).with_place(), page.reader))
-                                   : value_json(L, lua_gettop(L), depth + 1, page)));
+        members[name] = name == "error" && lua_type(L, -1) == LUA_TSTRING
+                            ? json_text(message_text(error_at(L, -1).with_place(), page.reader))
+                            : value_json(L, lua_gettop(L), depth + 1, page);
     }
-    if (object != "{") return object + "}";
+    if (!members.empty()) {
+        std::string object = "{";
+        for (const auto& [name, value] : members) add_entry(object, json_text(name) + ':' + value);
+        return object + "}";
+    }
     std::string list = "[";
     for (lua_Integer i = 1; i <= length; ++i) {
         lua_rawgeti(L, index, i);

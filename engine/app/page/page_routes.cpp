@@ -60,7 +60,7 @@ std::string style_of_documents() {
     return read_text(shared_folder() / "report_templates/html/document.css");
 }
 
-/// The workbench in a folder of its own beside that of the files it names.
+/// The workbench's page for the folder workbench/, with the files of page/.
 std::string workbench_of_site(std::string html) {
     const std::string head = "<head>\n";
     html.insert(html.find(head) + head.size(), std::string(kSitePolicy) + "<base href=\"../page/\">\n");

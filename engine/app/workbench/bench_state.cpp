@@ -42,8 +42,7 @@ void add_member(std::string& object, const std::string& name, const std::string&
 }  // namespace
 
 BenchState::BenchState(std::filesystem::path file, PartRunner& runner, std::vector<std::string> past)
-    : runner_(runner), text_(std::move(file)) {
-    text_.set_past(std::move(past));
+    : runner_(runner), text_(std::move(file), std::move(past)) {
     looked_at_.settings = "{}";
 }
 

@@ -32,7 +32,7 @@ class PartRunner {
 /// time.
 class BenchState {
   public:
-    /// With the `past` of an earlier session of the file, as SessionText::past().
+    /// `past`: as for SessionText.
     BenchState(std::filesystem::path file, PartRunner& runner, std::vector<std::string> past = {});
 
     std::optional<std::size_t> change(const ScriptOrder& order);  ///< as SessionText::obey(); the revision then

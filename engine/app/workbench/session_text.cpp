@@ -15,7 +15,8 @@ constexpr std::size_t kMaxSteps = 500;
 
 }  // namespace
 
-SessionText::SessionText(std::filesystem::path file) : file_(std::move(file)) {
+SessionText::SessionText(std::filesystem::path file, std::vector<std::string> past)
+    : file_(std::move(file)), past_(std::move(past)) {
     if (std::filesystem::exists(file_)) text_ = saved_ = text_of_source(file_);
 }
 

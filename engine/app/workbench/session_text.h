@@ -24,10 +24,10 @@ class SessionText {
   public:
     /// Of a file that is there, or comes with the first text that is put. Throws EnvironmentError where it cannot be
     /// read.
-    explicit SessionText(std::filesystem::path file);
-    /// The texts before this one, oldest first, which undo() goes back to.
+    /// `past` is that of an earlier session of the file, as past() gives it.
+    explicit SessionText(std::filesystem::path file, std::vector<std::string> past = {});
+    /// The texts before this one, oldest first, to which undo() goes back.
     const std::vector<std::string>& past() const { return past_; }
-    void set_past(std::vector<std::string> past) { past_ = std::move(past); }
 
     const std::filesystem::path& file() const { return file_; }
     const std::string& text() const { return text_; }

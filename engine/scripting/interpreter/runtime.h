@@ -41,7 +41,8 @@ class Runtime {
     RunRecord run(const PercentScript& script);
     /// The same for plain Lua text as a single cell "cell-1"; messages use `name` as the file's name.
     RunRecord run_code(const std::string& code, const std::string& name);
-    /// Runs Lua of the program itself, which shows nothing and is read as it is written: quicker than run_code().
+    /// Runs Lua code that is part of the program: its expressions are not shown, and no line is checked for a
+    /// misreading. Faster than run_code().
     RunRecord run_library(const std::string& code, const std::string& name);
     /// The same in parts, for a document that follows its script: begin_parts(), then every part of `script` in turn.
     /// Each part is a separate chunk with the variables that a prompt's statements share. Parts that have run stay

@@ -49,8 +49,8 @@ std::string with_pictures_apart(const std::string& html, const std::string& root
 /// not in links, blocks of code and choices, and not on the page itself.
 std::string with_links_to_pages(const SitePage& page, const std::map<std::string, std::string>& pages);
 
-/// The security policy of the site's pages (a meta element): they load from the site alone, also where it is opened as
-/// files.
+/// The content security policy of all pages of a site, as a meta element: pages load files of the site only, from a
+/// server or from a folder.
 extern const char* const kSitePolicy;
 /// The whole page with the site's bar, policy, style and scripts.
 std::string framed_page(const SitePage& page, const SiteFrame& frame);
