@@ -94,9 +94,17 @@ int main(int argc, char** argv) {
         return 2;
     }
     Report report;
+    bool complete = true;
     for (const auto& [name, measure] : groups) {
-        if (named.empty() || std::find(named.begin(), named.end(), name) != named.end()) measure(report);
+        if (!named.empty() && std::find(named.begin(), named.end(), name) == named.end()) continue;
+        try {
+            measure(report);
+        } catch (const std::exception& error) {  // the rows before it are printed
+            complete = false;
+            report.left_out.push_back(fmt::format("{}: all behind the last row of it, which failed: {}", name,
+                                                  *error.what() ? error.what() : "a program gave no reason"));
+        }
     }
     dynlab::test::Browser::end_idle();
-    return print_table(report) ? 0 : 1;
+    return print_table(report) && complete ? 0 : 1;
 }
