@@ -75,18 +75,44 @@ using namespace dynlab;
 
 extern "C" {
 
-/// web::PageRunOrder. Everything else is news.
-void dynlab_run(const char* order_json) {
-    carry_out([&] {
+/// For a web::PageRunOrder, the most parts of the script behind which it can begin where memory of the last run is put
+/// back; -1 where it goes on from the memory as it is.
+int dynlab_lasting_parts(const char* order_json) {
+    const auto& last = session().world;
+    try {
+        if (!last) return 0;
         const auto order = from_json<web::PageRunOrder>(order_json);
         const PercentScript script = parse_percent_script(order.source, order.file);
+        return last->goes_on(script, order) ? -1 : static_cast<int>(last->lasting_parts(script, order));
+    } catch (const std::exception&) {
+        return 0;  // dynlab_begin_run() says why
+    }
+}
+
+/// web::PageRunOrder; `put_back`: in memory of the last run. Then dynlab_run_part() runs it; false where it cannot.
+bool dynlab_begin_run(const char* order_json, bool put_back) {
+    bool can_run = false;
+    carry_out([&] {
+        const auto order = from_json<web::PageRunOrder>(order_json);
+        PercentScript script = parse_percent_script(order.source, order.file);
         PageSession& page = session();
         if (!page.world || !page.world->goes_on(script, order)) {
             page.world.reset();  // before the next: memory for one
             page.world = std::make_unique<RunEnvironment>(page.calls, script, order);
         }
-        page.world->run(script, order);
+        if (put_back) page.world->forget_drawn();
+        page.world->begin(std::move(script), order);
+        can_run = true;
     });
+    return can_run;
+}
+
+/// Runs the next part of the script: the number of parts that have run; 0 when the run has ended. Everything else is
+/// news.
+int dynlab_run_part() {
+    std::size_t parts = 0;
+    carry_out([&] { parts = world().run_part(); });
+    return static_cast<int>(parts);
 }
 
 /// web::ChecksOrder. What comes of it is news.

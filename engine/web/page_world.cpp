@@ -69,35 +69,51 @@ RunEnvironment::RunEnvironment(const CallCache& calls, const PercentScript& scri
     runtime_.begin_parts(script);
 }
 
-bool RunEnvironment::goes_on(const PercentScript& script, const PageRunOrder& order) const {
+std::size_t RunEnvironment::lasting_parts(const PercentScript& script, const PageRunOrder& order) const {
+    if (order.fresh || settings_ != settings_of(script, order)) return 0;
     const std::vector<ScriptPart> parts = script_parts(script);
     const std::size_t first = order.again.empty() ? parts.size() : part_with(parts, order.again);
-    if (failed_ || order.fresh || settings_ != settings_of(script, order) || done_.size() > first) return false;
-    for (std::size_t i = 0; i < done_.size(); ++i)
-        if (done_[i].code != parts[i].code || done_[i].cells != parts[i].cells) return false;
-    return true;
+    std::size_t same = 0;
+    while (same < std::min(done_.size(), first) && done_[same].code == parts[same].code &&
+           done_[same].cells == parts[same].cells)
+        ++same;
+    return same;
 }
 
-void RunEnvironment::run(const PercentScript& script, const PageRunOrder& order) {
-    const std::vector<ScriptPart> parts = script_parts(script);
-    const std::size_t until =
-        order.until.empty() ? parts.size() : std::min(part_with(parts, order.until) + 1, parts.size());
-    for (std::size_t i = done_.size(); i < until; ++i) {
-        send({.kind = "begun", .part = i, .cells = parts[i].cells});
-        report_progress(i, parts[i].cells);
-        const auto start = std::chrono::steady_clock::now();
-        RunRecord results = runtime_.run_part(script, parts[i]);
-        News news{.kind = "done", .part = i, .cells = parts[i].cells, .seconds = seconds_since(start)};
-        if (results.error)
-            news.error = {results.error->text(reader_), results.error->line_in(script.file.filename().string())};
-        news.figures = new_figures(results);
-        news.results = std::move(results);
-        send(news);
-        failed_ = news.error.has_value();
-        if (failed_) break;
-        done_.push_back(parts[i]);
-    }
-    send({.kind = "ended", .part = done_.size()});
+bool RunEnvironment::goes_on(const PercentScript& script, const PageRunOrder& order) const {
+    return !failed_ && !order.fresh && settings_ == settings_of(script, order) &&
+           lasting_parts(script, order) == done_.size();
+}
+
+void RunEnvironment::begin(PercentScript script, const PageRunOrder& order) {
+    script_ = std::move(script);
+    parts_ = script_parts(script_);
+    until_ = order.until.empty() ? parts_.size() : std::min(part_with(parts_, order.until) + 1, parts_.size());
+}
+
+std::size_t RunEnvironment::run_part() {
+    const std::size_t i = done_.size();
+    const auto end = [&] {
+        send({.kind = "ended", .part = i});
+        return std::size_t{0};
+    };
+    if (i >= until_) return end();
+    const ScriptPart& part = parts_[i];
+    send({.kind = "begun", .part = i, .cells = part.cells});
+    report_progress(i, part.cells);
+    failed_ = true;  // until it has ended
+    const auto start = std::chrono::steady_clock::now();
+    RunRecord results = runtime_.run_part(script_, part);
+    News news{.kind = "done", .part = i, .cells = part.cells, .seconds = seconds_since(start)};
+    if (results.error)
+        news.error = {results.error->text(reader_), results.error->line_in(script_.file.filename().string())};
+    news.figures = new_figures(results);
+    news.results = std::move(results);
+    send(news);
+    if (news.error) return end();
+    failed_ = false;
+    done_.push_back(part);
+    return done_.size();
 }
 
 std::map<std::string, PageFigure> RunEnvironment::new_figures(const RunRecord& results) {

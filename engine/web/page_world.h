@@ -67,9 +67,17 @@ class RunEnvironment {
     RunEnvironment(const CallCache& calls, const PercentScript& script, const PageRunOrder& order);
 
     Runtime& runtime() { return runtime_; }
+    /// So many parts at the beginning of the script need not run again where they have run in a world like this one.
+    std::size_t lasting_parts(const PercentScript& script, const PageRunOrder& order) const;
     /// Whether the script can go on in this world: nothing that it needs to run again has run.
     bool goes_on(const PercentScript& script, const PageRunOrder& order) const;
-    void run(const PercentScript& script, const PageRunOrder& order);
+    /// What run_part() runs from now on.
+    void begin(PercentScript script, const PageRunOrder& order);
+    /// Runs the next part of the script: the number of parts that have run; 0 when the run has ended, behind the last
+    /// or one that failed. The page is told of both.
+    std::size_t run_part();
+    /// The page may show other figures than this world has drawn: the next part sends all.
+    void forget_drawn() { drawn_.clear(); }
 
   private:
     std::map<std::string, PageFigure> new_figures(const RunRecord& results);
@@ -80,8 +88,10 @@ class RunEnvironment {
     GnuplotRenderer renderer_;
     Runtime runtime_;
     std::string settings_;
-    std::vector<ScriptPart> done_;
-    bool failed_ = false;  ///< a part has left its work half done
+    PercentScript script_;
+    std::vector<ScriptPart> parts_, done_;
+    std::size_t until_ = 0;  ///< the part behind the last that is to run
+    bool failed_ = false;    ///< a part has left its work half done
     std::map<std::string, std::pair<std::shared_ptr<const Figure>, std::string>> drawn_;  ///< with its caption
 };
 

@@ -27,7 +27,8 @@ const source = fs.readFileSync(script, "utf8"), file = "/script/" + path.basenam
 for (let i = 0; i < times; ++i) {
   news.length = 0;
   const before = performance.now();
-  module.ccall("dynlab_run", null, ["string"], [JSON.stringify({ source, file, seed: null, slider_values: {}, again: "", until: "", fresh: true })]);
+  const order = JSON.stringify({ source, file, seed: null, slider_values: {}, again: "", until: "", fresh: true });
+  if (module.ccall("dynlab_begin_run", "number", ["string", "boolean"], [order, false])) while (module.ccall("dynlab_run_part", "number", [], [])) ;
   run.push(performance.now() - before);
 }
 if (checks !== undefined) {

@@ -53,9 +53,40 @@ const spoken = new Set(["en"]);
 function speak(language) {
   if (!language || spoken.has(language)) return;
   spoken.add(language);
+  memories.length = 0;
   try {
     engine.ccall("dynlab_add_language", null, ["string", "string"], [language, new TextDecoder().decode(fetched(`${folder}${language}.po`))]);
   } catch { /* it has not: they are in English */ }
+}
+
+// The engine's memory between two parts of a run, so that a later run of the script, edited further on, begins there:
+// {parts, pages}, the shortest run first. Equal pages are one array.
+const kPage = 1 << 16, kMostPages = 2048, kMostRepeated = 50;  // bytes; 128 MB; ms of running between two memories
+const memories = [];
+let repeated = 0;  // ms of running that the last memory lacks
+
+function keepMemory(parts) {
+  const now = engine.HEAPU8, words = engine.HEAP32, before = memories.at(-1)?.pages ?? [];
+  const same = (page, start) => {
+    const old = new Int32Array(page.buffer);
+    for (let i = 0, k = start >> 2; i < old.length; ++i, ++k) if (old[i] !== words[k]) return false;
+    return true;
+  };
+  const pages = Array.from({ length: now.length / kPage }, (_, k) =>
+    before[k] && same(before[k], k * kPage) ? before[k] : now.slice(k * kPage, (k + 1) * kPage));
+  memories.push({ parts, pages });
+  repeated = 0;
+  while (new Set(memories.flatMap((one) => one.pages)).size > kMostPages) memories.shift();
+}
+/// The longest run of at most `parts` parts is the last one again. False where there is none.
+function putBackMemory(parts) {
+  while (memories.length > 0 && memories.at(-1).parts > parts) memories.pop();
+  repeated = 0;
+  if (memories.length === 0) return false;
+  const { pages } = memories.at(-1), now = engine.HEAPU8;
+  pages.forEach((page, k) => now.set(page, k * kPage));
+  now.fill(0, pages.length * kPage);
+  return true;
 }
 
 function bytesOf({ text, base64 }) {
@@ -116,7 +147,15 @@ const acts = {
   workForBench: () => engine.ccall("dynlab_work_for_bench", "number", [], []) !== 0,
   run({ order }) {
     speak(languageOf(order.source));
-    engine.ccall("dynlab_run", null, ["string"], [JSON.stringify(order)]);
+    const json = JSON.stringify(order), lasting = engine.ccall("dynlab_lasting_parts", "number", ["string"], [json]);
+    const putBack = lasting >= 0 && putBackMemory(lasting);
+    if (!engine.ccall("dynlab_begin_run", "number", ["string", "boolean"], [json, putBack])) return;
+    for (;;) {
+      const start = performance.now(), parts = engine.ccall("dynlab_run_part", "number", [], []);
+      if (parts === 0) return;
+      repeated += performance.now() - start;
+      if (repeated > kMostRepeated) keepMemory(parts);
+    }
   },
   check({ order }) {
     speak(languageOf(order.source));
