@@ -63,10 +63,10 @@ void wait(Browser& browser, const std::string& expression) {
 
 /// JavaScript: waits for an expression within the page, looked at once a frame, and returns the time since the page's
 /// beginning in seconds.
-std::string when(const std::string& doing, const std::string& expression) {
+std::string when(const std::string& doing, const std::string& expression, const std::string& ready = kReady) {
     return "return (async () => { const frame = () => new Promise(requestAnimationFrame);"
            "while (!(" +
-           kReady + ")) await frame(); const begin = performance.now(); " + doing + "; while (!(" + expression +
+           ready + ")) await frame(); const begin = performance.now(); " + doing + "; while (!(" + expression +
            ")) await frame(); return [performance.now() / 1000, (performance.now() - begin) / 1000]; })()";
 }
 
@@ -75,8 +75,8 @@ std::pair<double, double> seconds_until_a_cell_ran(Browser& browser, const std::
     browser.open(address);
     const json times =
         json::parse(browser.evaluate(when("document.querySelector('[data-cell=times] .run-cell').click()",
-                                          "document.querySelector('[data-cell=times] pre.output')?.textContent"
-                                          ".includes('Games')")));
+                                          "document.querySelector('[data-cell=times]').dataset.state === 'done'",
+                                          "document.querySelector('[data-cell=times] .run-cell')")));
     return {times[0], times[1]};
 }
 

@@ -63,7 +63,9 @@ std::string style_of_documents() {
 /// The workbench's page for the folder workbench/, with the files of page/.
 std::string workbench_of_site(std::string html) {
     const std::string head = "<head>\n";
-    html.insert(html.find(head) + head.size(), std::string(kSitePolicy) + "<base href=\"../page/\">\n");
+    html.insert(html.find(head) + head.size(), std::string(kSitePolicy) +
+                                                   "<base href=\"../page/\">\n"
+                                                   "<script src=\"engine_start.js\" type=\"module\" async></script>\n");
     return html;
 }
 

@@ -1,8 +1,8 @@
 // The workbench of a site: its session is in the engine of the page (engine_worker.js). The script and the user's data files stay in the
 // browser (work_store.js).
+import { canRun, engine } from "./engine.js";
 import { addWords, say, tr } from "./words.js";
 import { kept, oneWriter, storedWork, storeWork } from "./work_store.js";
-import { canRun, Engine } from "./worker_session.js";
 
 addWords({
   openElsewhere: tr("the workbench is also open in another tab, which saves the session"),
@@ -19,7 +19,6 @@ export const home = root.href;
 const kFolder = "/bench", kFile = `${kFolder}/session.lua`, kDropped = "/dropped", kKey = "workbench";
 const kPause = 300;  // ms of typing before the script is stored
 const keyOfFile = (name) => `${kKey} ${name}`;
-const engine = new Engine(root);
 // past: scripts before this one, for undo; files: names of the user's data files; cell: the one that runs
 let source = "", past = [], files = [], fresh = true, cell = "";
 let prelude = null, writer = null, opened = null, timer = 0;
@@ -29,13 +28,13 @@ const languageOf = (text) => /^--\s*language:\s*(\w+)/m.exec(text)?.[1] ?? "";
 
 async function begin() {
   if (!canRun()) throw new Error(say("noEngine"));
-  writer = await oneWriter(kKey, (writes) => { if (writes) store(); });
+  writer = oneWriter(kKey, (writes) => { if (writes) store(); });
   const stored = await storedWork(kKey);
   source = stored?.source ?? "";
   past = stored?.past ?? [];
   files = (stored?.files ?? []).filter((name) => [source, ...past].some((script) => script.includes(name)));
   fresh = source === "";
-  await start("");
+  await Promise.all([start(""), writer.answered]);
 }
 async function start(stopped) {
   try {

@@ -2,12 +2,13 @@
 import { cellEditor } from "./cell_editor.js";
 import { showResults, takeFigures } from "./cell_results.js";
 import { loadCodeMirror } from "./code_mirror.js";
+import { canRun } from "./engine.js";
 import { cellIds } from "./lesson_script.js";
 import "./page_words.js";
 import { defineScriptMode } from "./script_mode.js";
 import { useSession } from "./session.js";
 import { say } from "./site_words.js";
-import { canRun, openSession } from "./worker_session.js";
+import { openSession } from "./worker_session.js";
 
 const kName = "example.lua";
 const make = (name, kind = "", text = "") => Object.assign(document.createElement(name), { className: kind, textContent: text });
@@ -69,7 +70,7 @@ const mistake = Object.assign(make("p"), { id: "mistake" });
 
 const nodes = [...document.querySelectorAll("pre.example[data-run]")];
 if (nodes.length > 0 && canRun()) {
-  session = openSession({ root, key: `${root.pathname} help`, news: (news) => current?.hear(news),
+  session = openSession({ key: `${root.pathname} help`, news: (news) => current?.hear(news),
     work: () => ({ name: kName, text: current?.text ?? "", language: document.documentElement.lang, files: [] }) });
   for (const id of ["signature", "help"]) document.body.append(Object.assign(make("div"), { id, hidden: true }));
   document.body.append(mistake);

@@ -1,18 +1,19 @@
 // A lesson of a site: its cells run here, in the browser. The page is whole without this script; what it cannot do it says in one sentence
 // above the text.
+import { takeFigures, showInText, slidersOf } from "./cell_results.js";
 import { forgetAnswers } from "./code_help.js";
 import { loadCodeMirror } from "./code_mirror.js";
-import { takeFigures, showInText, slidersOf } from "./cell_results.js";
-import { placeHints, showChecks, submit } from "./lesson_checks.js";
+import { canRun } from "./engine.js";
 import { cellsOfPage } from "./lesson_cells.js";
+import { placeHints, showChecks, submit } from "./lesson_checks.js";
 import { download, LessonWork } from "./lesson_work.js";
 import { blocksOf } from "./markdown_text.js";
 import "./page_words.js";
 import { defineScriptMode } from "./script_mode.js";
 import { useSession } from "./session.js";
-import { controlsByCell } from "./sliders.js";
 import { number, say } from "./site_words.js";
-import { canRun, openSession } from "./worker_session.js";
+import { controlsByCell } from "./sliders.js";
+import { openSession } from "./worker_session.js";
 
 const main = document.getElementById("lesson"), { lesson: lessonName, file: scriptName, language } = main.dataset;
 const root = new URL(main.dataset.root, location.href), address = new URL(".", location.href);
@@ -275,6 +276,11 @@ const page = {
 const mistake = Object.assign(make("p"), { id: "mistake" });
 mistake.setAttribute("role", "status");
 
+async function openWork(key) {
+  const reply = await fetch(new URL("lesson.json", address));
+  if (!reply.ok) throw new Error("lesson.json");
+  return LessonWork.open(await reply.json(), address, key, () => { if (work) redrawAll(); });
+}
 async function begin() {
   main.before(bar, notices, panel);
   if (!canRun()) {
@@ -283,15 +289,14 @@ async function begin() {
   }
   const key = `${root.pathname} ${lessonName} ${language}`;
   session = openSession({
-    root, key,
+    key,
     work: () => ({ name: scriptName, text: work.composed.text, language, files: work.folder().filter(({ name }) => name !== scriptName) }),
     news: (what) => { if (!stopped) heard[what.kind]?.(what); },
   });
   const prepared = session.prepare().then(() => true, () => false);  // it is fetched and compiled meanwhile
-  const [reply, editor] = await Promise.all([fetch(new URL("lesson.json", address)), loadCodeMirror()]);
-  if (!reply.ok) throw new Error("lesson.json");
+  const [opened, editor] = await Promise.all([openWork(key), loadCodeMirror()]);
+  work = opened;
   if (editor) defineScriptMode();
-  work = await LessonWork.open(await reply.json(), address, key, () => { redrawAll(); });
   const { moveSliders } = session;
   useSession({ moveSliders: (values) => start(() => moveSliders(values)) });
   const found = await work.takeLink();

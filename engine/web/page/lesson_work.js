@@ -49,7 +49,7 @@ export class LessonWork {
     const files = await filesOf(description, address), main = files.find(({ name }) => name === description.file);
     Object.assign(work, { key, description, script: new LessonScript(main.text), texts: new Map(), shared: null, older: null, takenOver: "",
                           others: files.filter((file) => file !== main), changed: new Map(), timer: 0 });
-    work.writer = await oneWriter(key, async (writes) => { if (writes) await work.recall(); onWriter(writes); });
+    work.writer = oneWriter(key, async (writes) => { if (writes) await work.recall(); onWriter(writes); });
     await work.recall();
     return work;
   }

@@ -47,12 +47,13 @@ export async function keepNote(key, name, text) {
 }
 
 const kAnswer = 150;  // ms in which another tab says that it is there
-/// Only one tab writes the work of a lesson. `onChange(writes)` is called when that changes; returns {writes, take()}.
-export async function oneWriter(key, onChange) {
+/// Only one tab writes the work of a lesson. `onChange(writes)` is called when that changes; returns {writes, take(), answered: when other tabs
+/// have had the time to say so}.
+export function oneWriter(key, onChange) {
   const line = "BroadcastChannel" in window ? new BroadcastChannel(`dynlab ${key}`) : null, me = String(Math.random());
   let writes = true, asking = true;
   const say = (what) => line?.postMessage({ what, from: me });
-  const become = (now) => { if (now !== writes) { writes = now; if (!asking) onChange(writes); } };
+  const become = (now) => { if (now !== writes) { writes = now; onChange(writes); } };
   if (line) line.onmessage = ({ data: { what, from } }) => {
     if (from === me) return;
     if (what === "is somebody there?" && writes && !asking) say("I write");
@@ -60,8 +61,7 @@ export async function oneWriter(key, onChange) {
     if (what === "I leave" && !writes && !asking) { say("I take it"); become(true); }
   };
   say("is somebody there?");
-  await new Promise((yes) => { setTimeout(yes, line ? kAnswer : 0); });
-  asking = false;
+  const answered = new Promise((yes) => { setTimeout(yes, line ? kAnswer : 0); }).then(() => { asking = false; });
   window.addEventListener("pagehide", () => { if (writes) say("I leave"); });
-  return { get writes() { return writes; }, take() { say("I take it"); become(true); } };
+  return { answered, get writes() { return writes; }, take() { say("I take it"); become(true); } };
 }

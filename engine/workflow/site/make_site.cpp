@@ -108,6 +108,7 @@ class SiteMaker {
                     LessonPage made = made_pages.make(lesson, language, numbers.at(lesson.slug));
                     files_[(fs::path(made.page.file).parent_path() / "lesson.json").string()] = made.description;
                     add_page_code(made.page, "lesson_page");
+                    if (runs()) made.page.first_modules.push_back("page/engine_start.js");
                     versions.push_back(std::move(made.page));
                 }
                 if (versions.size() > 1) {

@@ -207,7 +207,9 @@ std::string framed_page(const SitePage& page, const SiteFrame& frame) {
         links += fmt::format("<link rel=\"stylesheet\" href=\"{}{}\">\n", root, style);
     if (frame.runs) links += fmt::format("<link rel=\"manifest\" href=\"{}manifest.webmanifest\">\n", root);
     for (const char* script : {"catalogs", "plot", "document", "site"})
-        scripts += fmt::format("<script src=\"{}page/{}.js\"></script>\n", root, script);
+        scripts += fmt::format("<script src=\"{}page/{}.js\" defer></script>\n", root, script);
+    for (const std::string& module : page.first_modules)
+        links += fmt::format("<script src=\"{}{}\" type=\"module\" async></script>\n", root, module);
     for (const std::string& module : page.modules)
         scripts += fmt::format("<script src=\"{}{}\" type=\"module\"></script>\n", root, module);
     return fmt::format(

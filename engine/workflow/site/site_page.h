@@ -17,8 +17,9 @@ struct SitePage {
     std::string body;             ///< HTML: <header> if any, and <main>
     std::string language = "en";  ///< of the page
     std::string translation;      ///< file of the same page in the other language; else empty
-    std::vector<std::string> styles,
-        modules;  ///< further style sheets and JavaScript modules, from the top of the site
+    /// Further style sheets and JavaScript modules, from the top of the site; the first modules run while the page is
+    /// still read.
+    std::vector<std::string> styles, modules, first_modules;
 
     /// The way from the page to the top of the site: "", "../", "../../".
     std::string root() const;
