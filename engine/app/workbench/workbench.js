@@ -160,7 +160,18 @@ function draw(changed) {
   else if (opened) showMistake();
   if (!opened && session.source !== undefined) open();
 }
-onChange(draw);
+/// All that has changed since the last frame is drawn once; the engine works meanwhile. A hidden page has no frames.
+let waiting = null;
+function drawWaiting() {
+  const changed = waiting;
+  waiting = null;
+  draw(changed);
+}
+onChange((changed) => {
+  if (waiting === null) (document.hidden ? setTimeout : requestAnimationFrame)(drawWaiting);
+  const { source, whole, error, views } = waiting ?? { views: [] };
+  waiting = { source: source || changed.source, whole: whole || changed.whole, error: error || changed.error, views: [...new Set([...views, ...changed.views])] };
+});
 async function open() {
   opened = true;
   openScript();

@@ -55,7 +55,7 @@ const open = () => {
   return opened;
 };
 
-/// One part of the script after the other; orders that arrive meanwhile come between two parts.
+/// Some parts of the script after the others; orders that arrive meanwhile come between.
 let working = false;
 async function work() {
   if (working) return;

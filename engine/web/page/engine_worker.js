@@ -111,6 +111,7 @@ function putFiles(folder, files) {
   }
 }
 
+const kMoment = 30;  // ms
 const acts = {
   async begin({ script, compiled, data, home }) {
     const news = (json) => self.postMessage({ news: json });
@@ -144,7 +145,13 @@ const acts = {
     if (order.path === "script") speak(languageOf(JSON.parse(order.body).text ?? ""));
     return JSON.parse(engine.ccall("dynlab_ask_bench", "string", ["string"], [JSON.stringify(order)]));
   },
-  workForBench: () => engine.ccall("dynlab_work_for_bench", "number", [], []) !== 0,
+  /// Part after part for a moment, in which no order gets between; whether more are to run.
+  workForBench() {
+    const until = performance.now() + kMoment;
+    let more = true;
+    while (more && performance.now() < until) more = engine.ccall("dynlab_work_for_bench", "number", [], []) !== 0;
+    return more;
+  },
   run({ order }) {
     speak(languageOf(order.source));
     const json = JSON.stringify(order), lasting = engine.ccall("dynlab_lasting_parts", "number", ["string"], [json]);
