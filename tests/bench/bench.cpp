@@ -94,17 +94,18 @@ int main(int argc, char** argv) {
         return 2;
     }
     Report report;
-    bool complete = true;
+    std::vector<std::string> failures;
     for (const auto& [name, measure] : groups) {
         if (!named.empty() && std::find(named.begin(), named.end(), name) == named.end()) continue;
         try {
             measure(report);
         } catch (const std::exception& error) {  // the rows before it are printed
-            complete = false;
-            report.left_out.push_back(fmt::format("{}: all behind the last row of it, which failed: {}", name,
-                                                  *error.what() ? error.what() : "a program gave no reason"));
+            failures.push_back(fmt::format("Group {}, after its last row above, failed: {}", name,
+                                           *error.what() ? error.what() : "a program gave no reason"));
         }
     }
     dynlab::test::Browser::end_idle();
-    return print_table(report) && complete ? 0 : 1;
+    const bool within = print_table(report);
+    for (const std::string& failure : failures) fmt::print(stderr, "{}\n", failure);
+    return within && failures.empty() ? 0 : 1;
 }

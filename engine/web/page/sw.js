@@ -68,7 +68,7 @@ async function answer(request) {
   return await (await current())?.cache.match(page.href) ?? fetch(request);
 }
 
-const kLater = 1500;  // ms: the page that brought this worker loads first
+const kLater = 4000;  // ms: the page that brought this worker loads first
 self.addEventListener("install", (event) => {
   event.waitUntil(new Promise((yes) => { setTimeout(yes, kLater); }).then(fill).then(() => self.skipWaiting()));
 });
