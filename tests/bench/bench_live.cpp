@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <thread>
 
@@ -77,6 +78,57 @@ double first_paint(Browser& browser, const fs::path& file) {
         throw std::runtime_error("the page of lesson 4 is never painted");
     return std::stod(browser.evaluate("return performance.getEntriesByName('first-contentful-paint')[0].startTime")) /
            1000;
+}
+
+/// Presses a key, with Shift if so wanted, and returns the seconds from the key until a frame in which the expression
+/// is true.
+double key_seconds(Browser& browser, const std::string& key, bool shift, const std::string& expression) {
+    browser.evaluate(
+        "window.took = 0; const pressed = (event) => { if (event.key === 'Shift') return;"
+        "removeEventListener('keydown', pressed, true); const look = () => { if (" +
+        expression +
+        ") window.took = performance.now() - event.timeStamp; else requestAnimationFrame(look); };"
+        "requestAnimationFrame(look); }; addEventListener('keydown', pressed, true)");
+    nlohmann::json keys = nlohmann::json::array();
+    if (shift) keys.push_back({{"type", "keyDown"}, {"value", "\uE008"}});
+    for (const char* type : {"keyDown", "keyUp"}) keys.push_back({{"type", type}, {"value", key}});
+    if (shift) keys.push_back({{"type", "keyUp"}, {"value", "\uE008"}});
+    browser.act(nlohmann::json::array({{{"type", "key"}, {"id", "keys"}, {"actions", keys}}}).dump());
+    if (!browser.becomes_true("window.took > 0")) throw std::runtime_error("never true after a key: " + expression);
+    return std::stod(browser.evaluate("return window.took")) / 1000;
+}
+
+/// The editor beside the page of lesson 4, in a short cell behind all others.
+void measure_editor(Report& report, const fs::path& file, const fs::path& cache) {
+    const Preview preview(file, true, {"--edit"}, cache);
+    Browser browser(1280, 900, Browser::Kind::kWhole);
+    browser.open(preview.address());
+    if (!browser.becomes_true(kComplete, 60) || !browser.becomes_true("document.querySelector('.editing .CodeMirror')"))
+        throw std::runtime_error("lesson 4 is never complete beside its editor");
+    browser.evaluate("window.cm = document.querySelector('.CodeMirror').CodeMirror");
+    const auto write_line = [&](const std::string& text) {  // instead of the last one
+        browser.evaluate(
+            "cm.closeHint?.(); cm.focus(); const line = cm.lastLine(); cm.replaceRange(" + nlohmann::json(text).dump() +
+            ", {line, ch: 0}, {line, ch: cm.getLine(line).length}); cm.setCursor(line, cm.getLine(line).length)");
+    };
+    std::vector<double> lists, signatures, runs;
+    for (int i = 1; i <= kEdits; ++i) {
+        write_line("ls");
+        lists.push_back(key_seconds(browser, "s", false, "document.querySelector('.CodeMirror-hint')"));
+        write_line("srivc");
+        signatures.push_back(key_seconds(browser, "(", false,
+                                         "!document.getElementById('signature').hidden && document."
+                                         "getElementById('signature').textContent.includes('srivc')"));
+        write_line(fmt::format("print(77000 + {})", i));
+        runs.push_back(key_seconds(
+            browser, "\uE007", true,
+            fmt::format("[...document.querySelectorAll('pre')].some(node => node.textContent.includes('{}'))",
+                        77000 + i)));
+    }
+    report.results.push_back({"live: completion list after a key (s)", "0.05 s", median(lists), 0.050, 1, 0.4});
+    report.results.push_back({"live: signature after a parenthesis (s)", "0.05 s", median(signatures), 0.050, 1, 0.4});
+    report.results.push_back(
+        {"live: Shift-Enter in lesson 4's last cell to its output (s)", "0.3 s", median(runs), 0.300, 1, 0.5});
 }
 
 }  // namespace
@@ -154,6 +206,9 @@ void measure_live(Report& report) {
     report.results.push_back({"lesson 4 as HTML, first paint (s)", "0.5 s", median(paints), 0.500, 1, 0});
     report.results.push_back({"lesson 4 as HTML, size (MB)", "3 MB",
                               static_cast<double>(fs::file_size(bench.path("alone.html"))) / 1e6, 3, 1, 0});
+
+    std::ofstream(file) << text << "\n-- %% id=last\nprint(77000)";
+    measure_editor(report, file, bench.path("cache"));
 }
 
 }  // namespace dynlab::bench
