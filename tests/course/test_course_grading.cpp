@@ -158,6 +158,62 @@ TEST_F(course_grading, each_version_has_marks_of_its_own) {
     EXPECT_THAT(work().read("k/marks/lab4/marks.csv"), AllOf(HasSubstr("group-01,q,,"), HasSubstr("group-01 v2,q,,")));
 }
 
+// oracle: the last mark given; two marks for one work, and the file against a command, are refused with both values
+TEST_F(course_grading, rows_about_the_same_work_agree_or_are_refused) {
+    submit("group-01", kSolution, "2026-02-27 12:00");
+    done({"mark", "lab4", "group-01", "5", "--reason", "desk"});
+    EXPECT_EQ(grade().exit_code, 0);
+    const std::string file = "k/marks/lab4/marks.csv";
+    const auto replaced = [&](const std::string& row, const std::string& by) {
+        std::string rows = work().read(file);
+        work().write(file, rows.replace(rows.find(row), row.size(), by));
+    };
+    work().write(file, work().read(file) + "221,*,4,second look\n");
+    for (int run = 0; run < 3; ++run) {
+        EXPECT_EQ(grade().exit_code, 0);
+        EXPECT_THAT(work().read(file), AllOf(HasSubstr("group-01,*,4,second look"), HasSubstr("221,*,4,second look")));
+        EXPECT_THAT(done({"marks", "lab4"}), ::testing::ContainsRegex("group-01 +v1 +4 of 6"));
+    }
+    done({"withdraw", "lab4", "group-01", "--mark", "*", "--reason", "again"});
+    grade();
+    EXPECT_THAT(work().read(file), AllOf(HasSubstr("group-01,*,,"), HasSubstr("221,*,,")));
+    EXPECT_THAT(book(), HasSubstr("221,Kim Min-jun,group-01,partly ungraded,,"));
+
+    work().write(file, work().read(file) + "222,*,2,\n");
+    replaced("221,*,,", "221,*,3,");
+    EXPECT_THAT(grade().error_output, HasSubstr("but give 3 and 2 points. Delete one of the two rows"));
+    replaced("222,*,2,", "222,*,3,");
+    EXPECT_EQ(grade().exit_code, 0);
+    replaced("221,*,3,", "221,*,1,");
+    done({"mark", "lab4", "group-01", "6", "--reason", "desk"});
+    EXPECT_THAT(grade().error_output,
+                HasSubstr("\"221\" has the mark 1 for the check \"*\", but dynlab course mark gave 6 since"));
+    EXPECT_THAT(done({"marks", "lab4"}), ::testing::ContainsRegex("group-01 +v1 +6 of 6"));
+    replaced("221,*,1,", "221,*,6,");
+    EXPECT_EQ(grade().exit_code, 0);
+    EXPECT_THAT(done({"marks", "lab4"}), ::testing::ContainsRegex("group-01 +v1 +6 of 6"));
+}
+
+// oracle: of equal marks the attempt with more points by the checks; a waiting penalty, as if it were confirmed
+TEST_F(course_grading, the_better_attempt_counts_where_the_whole_is_marked_and_where_a_penalty_waits) {
+    submit("group-01", "error('boom')\n", "2026-02-26 12:00");
+    submit("group-01", kSolution, "2026-02-27 12:00");
+    done({"mark", "lab4", "group-01", "5", "--reason", "desk"});
+    submit("group-02", "answer('x', 42)\n-- a day late\n", "2026-03-02 11:00");
+    work().write("in/late/analysis.lua", kSolution);
+    course({"submit", "in/late/analysis.lua", "--from", "group-02", "--at", "2026-03-10 12:00", "--isolation",
+            bench_.level()});
+    done({"mark", "lab4", "group-02", "q", "4", "--reason", "both alike"});
+    const ChildResult graded = grade();
+    EXPECT_THAT(graded.output + graded.error_output,
+                AllOf(HasSubstr("The best submission, \"group-01 v2\", counts"),
+                      HasSubstr("The best submission, \"group-02\", counts"),
+                      HasSubstr("a penalty of 90 % of the points is not applied until you confirm it")));
+    EXPECT_THAT(book(), HasSubstr("223,Max Mustermann,group-02,graded,5.4,6,0.6,"));
+    EXPECT_THAT(done({"marks", "lab4"}), AllOf(::testing::ContainsRegex("group-01 +v2 +5 of 6"),
+                                               ::testing::ContainsRegex("group-02 +v1 +5.4 of 6")));
+}
+
 // oracle: the message, and the total without the refused mark
 TEST_F(course_grading, a_row_above_the_maximum_does_not_reach_the_total) {
     submit("group-01", kSolution, "2026-02-27 12:00");

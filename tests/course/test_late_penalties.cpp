@@ -37,9 +37,11 @@ TEST(late_penalties, half_the_points_or_more_wait_for_the_instructor) {
     EXPECT_THAT(message_text(work.items[0].lateness.reason),
                 HasSubstr("this penalty of 100 % is not applied until your instructor confirms it"));
     conclude_lateness(work);
-    EXPECT_THAT(texts(work.late), ElementsAre("\"a\" is late by 264 d 2 h; the penalty is 0 % of the points",
-                                              "\"b\" is late by 1 h; the penalty is 10 % of the points",
-                                              "\"c\" is late by 5 d; the penalty is 50 % of the points"));
+    EXPECT_THAT(
+        texts(work.late),
+        ElementsAre("\"a\" is late by 264 d 2 h; a penalty of 100 % of the points is not applied until you confirm it",
+                    "\"b\" is late by 1 h; the penalty is 10 % of the points",
+                    "\"c\" is late by 5 d; the penalty is 50 % of the points"));
     EXPECT_EQ(work.unconfirmed, 1);
     ASSERT_EQ(work.attention.size(), 1u);
     EXPECT_THAT(texts(work.attention)[0],

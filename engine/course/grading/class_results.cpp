@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "base/reader.h"
 #include "course/grading/class_statistics.h"
@@ -72,14 +73,28 @@ std::string shown_name(const Submission& submission) {
     return fmt::format("{} ({})", submission.person, submission.lms_id);
 }
 
-/// Of several submissions of one student, the one that counts: one without marks never before one with.
+/// What is best in a submission, the first first: its marks, as if a penalty that waits were confirmed; its marks by
+/// its checks, where the instructor marked the whole; that it is newer. One without marks is never before one with.
+auto merit(const Entry& entry) {
+    const double percent_left = 100 - entry.item->lateness.waiting_percent;
+    double marks = -1, by_checks = -1;
+    if (entry.grade && !entry.grade->without_marks()) {
+        Grade grade = *entry.grade;
+        const bool whole = grade.whole_mark.has_value();
+        marks = grade.earned() * (whole ? 1 : percent_left / 100);
+        grade.whole_mark.reset();
+        by_checks = grade.earned() * percent_left / 100;
+    }
+    return std::tuple(marks, by_checks, entry.item->received);
+}
+
+/// Of several submissions of one student, the one that counts.
 const Entry* counting(const Entry* a, const Entry* b, bool newest_counts) {
-    const auto points = [](const Entry* entry) {
-        return entry->grade && !entry->grade->without_marks() ? entry->grade->earned() : -1;
-    };
     if (a == nullptr) return b;
-    if (newest_counts && points(a) >= 0 && points(b) >= 0) return b->item->received > a->item->received ? b : a;
-    return points(b) > points(a) ? b : a;
+    const auto of_a = merit(*a), of_b = merit(*b);
+    if (newest_counts && std::get<0>(of_a) >= 0 && std::get<0>(of_b) >= 0)
+        return b->item->received > a->item->received ? b : a;
+    return of_b > of_a ? b : a;
 }
 
 /// For each student.

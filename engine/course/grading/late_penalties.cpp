@@ -66,14 +66,22 @@ void conclude_lateness(ClassWork& work) {
     for (const WorkItem* item : items) {
         const Lateness& lateness = item->lateness;
         late.push_back(lateness.late);
-        work.late.push_back(Message("\"{}\" is late by {}; the penalty is {} % of the points", item->submission.name,
-                                    duration_message(lateness.late), significant(lateness.percent, 4)));
-        if (lateness.waiting_percent == 0) continue;
+        const bool waits = lateness.waiting_percent > 0;
+        const std::string& name = item->submission.name;
+        const Message by = duration_message(lateness.late);
+        work.late.push_back(waits
+                                ? Message("\"{}\" is late by {}; a penalty of {} % of the points is not applied until "
+                                          "you confirm it",
+                                          name, by, significant(lateness.waiting_percent, 4))
+                                : Message("\"{}\" is late by {}; the penalty is {} % of the points", name, by,
+                                          significant(lateness.percent, 4)));
+        if (!waits) continue;
         ++work.unconfirmed;
         work.attention.push_back(
-            Message("\"{}\" arrived {} after its deadline, and a penalty of {} % is not applied yet; apply it with "
-                    "--accept-late, or correct the time of receipt",
-                    item->submission.name, duration_message(lateness.late), significant(lateness.waiting_percent, 4)));
+            Message("\"{}\" arrived {} after its deadline, and a penalty of {} % is not applied yet; confirm it "
+                    "with --accept-late (dynlab grade, dynlab course submit), or set the time of receipt with dynlab "
+                    "course set-received",
+                    name, by, significant(lateness.waiting_percent, 4)));
     }
     if (Message question = doubt_about_zone(std::move(late), work.items.size()); !question.empty())
         work.notes.push_back(std::move(question));

@@ -78,10 +78,37 @@ void take_back_lost_rows(Course& course, const Assignment& assignment, const Cou
     }
 }
 
+/// A row that the instructor changed, and that says other points than the row before it of the same work, or than a
+/// command meanwhile: which is right?
+class ChangedRows {
+  public:
+    explicit ChangedRows(const fs::path& results) : file_((results / kMarksFile).string()) {}
+    void refuse_contradiction(const CourseWork::Marked& marked, const MarksFile::Row& row) {
+        const auto [other, fresh] = rows_.try_emplace({marked, row.check}, row);
+        if (fresh || points_text(*other->second.points) == points_text(*row.points)) return;
+        throw EnvironmentError(
+            "{}, lines {} and {}: both are about the same work and the check \"{}\", but give {} and {} points. Delete "
+            "one of the two rows",
+            file_, other->second.line, row.line, row.check, points_text(*other->second.points),
+            points_text(*row.points));
+    }
+    void refuse_other_than(const GivenMark& given, const MarksFile::Row& row) const {
+        if (points_text(*given.points) == points_text(*row.points)) return;
+        throw EnvironmentError(
+            "{}, line {}: \"{}\" has the mark {} for the check \"{}\", but dynlab course mark gave {} since the last "
+            "grading. Write the correct mark into this row",
+            file_, row.line, row.who, points_text(*row.points), row.check, points_text(*given.points));
+    }
+
+  private:
+    std::string file_;
+    std::map<std::pair<CourseWork::Marked, std::string>, MarksFile::Row> rows_;
+};
+
 /// Brings marks.csv and the marks of the store together. A row that differs from what the two had in common last time
-/// was changed by the instructor and goes into the store; one that does not follows the store. An emptied row takes
-/// nothing back: it is filled again. Only where marks are given in the file alone, `file_alone`, a mark whose row is
-/// not there any more, or is empty, is taken back.
+/// was changed by the instructor and goes into the store; at the end all rows say what the store says. An emptied row
+/// takes nothing back: it is filled again. Only where marks are given in the file alone, `file_alone`, a mark whose row
+/// is not there any more, or is empty, is taken back. Throws EnvironmentError for points that contradict others.
 void join_rows(Course& course, const Assignment& assignment, const CourseWork& work,
                const std::map<std::string, double>& max_points, const fs::path& results, bool file_alone) {
     MarksFile file(results);
@@ -90,27 +117,34 @@ void join_rows(Course& course, const Assignment& assignment, const CourseWork& w
     const std::optional<std::int64_t> last = joined.last();
     const MarksInForce before(last ? marks_in_force(course, assignment, last) : std::vector<GivenMark>());
     const MarksInForce now(marks_in_force(course, assignment));
-    std::vector<MarksFile::Row> filled;
+    std::vector<std::pair<MarksFile::Row, CourseWork::Marked>> known;
+    ChangedRows changed(results);
     for (const MarksFile::Row& row : file.rows()) {
         const auto marked = work.marked_by(course, row.who);
         const auto points = max_points.find(row.check);
         if (!marked || points == max_points.end() || row.points > points->second)
             continue;  // complained of by the grading
-        const GivenMark* const mark = now.of(*marked, row.check);
-        if (says(row, mark) || (file_alone && !row.points)) continue;
-        if (row.points && !says(row, before.of(*marked, row.check)))
-            give_mark(course, assignment, {marked->group, "", row.check, row.points, row.reason, marked->version},
-                      CourseClock::now());
-        else
-            filled.push_back(
-                {row.line, row.who, row.check, mark ? mark->points : std::nullopt, mark ? mark->reason : ""});
+        if (file_alone && !row.points) continue;
+        known.emplace_back(row, *marked);
+        const GivenMark *const given = now.of(*marked, row.check), *const common = before.of(*marked, row.check);
+        if (!row.points || says(row, given) || says(row, common)) continue;
+        changed.refuse_contradiction(*marked, row);
+        const bool given_since = given != nullptr && (common == nullptr || given->id != common->id);
+        if (given_since && !file_alone) changed.refuse_other_than(*given, row);
+        give_mark(course, assignment, {marked->group, "", row.check, row.points, row.reason, marked->version},
+                  CourseClock::now());
     }
     if (file_alone) take_back_lost_rows(course, assignment, work, file, before);
     const std::vector<GivenMark> in_force = marks_in_force(course, assignment);
     Rows newest = course.database().query("SELECT max(id) FROM marks WHERE assignment = ?", assignment.id);
     const std::int64_t last_now = newest.next() ? newest.optional_integer(0).value_or(0) : 0;
     transaction.commit();
-    for (const MarksFile::Row& row : filled) file.fill(row.who, row.check, row.points, row.reason);
+    const MarksInForce valid(in_force);
+    for (const auto& [row, marked] : known) {
+        const GivenMark* const mark = valid.of(marked, row.check);
+        if (!says(row, mark))
+            file.fill(row.who, row.check, mark ? mark->points : std::nullopt, mark ? mark->reason : "");
+    }
     std::vector<MarksFile::Row> missing;
     for (const GivenMark& mark : in_force)
         if (mark.student.empty())

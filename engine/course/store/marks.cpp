@@ -60,12 +60,12 @@ std::vector<GradedVersion> graded_versions(Course& course, const Assignment& ass
 using MarksByItem = std::map<std::string, GivenMark>;
 
 LabMark whole_mark(std::int64_t group, std::int64_t number, double possible, const GivenMark& given) {
-    return {group, number, given.points, possible, 0, true, given.reason};
+    return {group, number, given.points, possible, 0, true, given.reason, 0};
 }
 
 /// With what the instructor gave, and with the penalty.
 LabMark mark_of(const Assignment& assignment, const GradedVersion& version, const MarksByItem& given) {
-    LabMark mark{version.group, version.number, {}, 0, 0, false, ""};
+    LabMark mark{version.group, version.number, {}, 0, 0, false, "", 0};
     double earned = 0;
     bool whole = version.checks && !version.checks->empty();
     for (const CheckPoints& check : version.checks.value_or(std::vector<CheckPoints>())) {
@@ -74,11 +74,14 @@ LabMark mark_of(const Assignment& assignment, const GradedVersion& version, cons
         whole = whole && (check.graded || own != given.end());
         earned += own != given.end() ? *own->second.points : check.graded ? check.earned : 0;
     }
-    if (const auto own = given.find(kWholeItem); own != given.end())
-        return whole_mark(version.group, version.number, mark.possible, own->second);
-    if (!waits_for_confirmation(assignment.costs, version.late, version.confirmed))
-        mark.penalty = earned * late_percent(assignment.costs, version.late) / 100;
-    if (whole) mark.earned = earned - mark.penalty;
+    const double penalty = earned * late_percent(assignment.costs, version.late) / 100;
+    if (const auto own = given.find(kWholeItem); own != given.end()) {
+        LabMark marked = whole_mark(version.group, version.number, mark.possible, own->second);
+        marked.by_checks = earned - penalty;
+        return marked;
+    }
+    if (!waits_for_confirmation(assignment.costs, version.late, version.confirmed)) mark.penalty = penalty;
+    if (whole) mark.earned = earned - mark.penalty, mark.by_checks = earned - penalty;
     return mark;
 }
 
@@ -254,7 +257,10 @@ std::vector<LabMark> lab_marks(Course& course, const Assignment& assignment, con
         const LabMark mark = mark_of(assignment, version, given_to(version.group, version.id));
         possible = std::max(possible, mark.possible);
         const auto [known, fresh] = marks.emplace(version.group, mark);
-        const bool better = mark.earned.value_or(-1) >= known->second.earned.value_or(-1);
+        const auto merit = [](const LabMark& one) {
+            return std::pair(!one.earned ? -1 : one.by_hand ? *one.earned : one.by_checks, one.by_checks);
+        };
+        const bool better = merit(mark) >= merit(known->second);
         if (!fresh && (assignment.keep == "newest" || better)) known->second = mark;
     }
     for (const auto* with_marks : {&of_group, &own})

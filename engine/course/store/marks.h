@@ -91,6 +91,7 @@ struct LabMark {
     double possible = 0, penalty = 0;
     bool by_hand = false;  ///< the whole was marked by the instructor
     std::string reason;    ///< of that mark
+    double by_checks = 0;  ///< points without that mark, as if a penalty that waits were confirmed
     std::optional<double> percent() const;
 };
 /// Of each group that submitted something or has a mark. Marks of single students: `student` gives them.
