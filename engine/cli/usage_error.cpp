@@ -91,7 +91,8 @@ std::string usage_message(const CLI::App* app, const CLI::Error& error) {
         !args.empty() && (required || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr))
         message = unknown_words(reached_command(app), args, required);
     if (message.empty()) message = in_our_words(error.what());
-    const Message help = Message("For more information, run the command with {}.", app->get_help_ptr()->get_name());
+    const Message help =
+        Message("For more information, run {} {}.", whole_name(reached_command(app)), app->get_help_ptr()->get_name());
     return terminal_text(message_text(Message("dynlab: {}\n{}\n", message, help), user()));
 }
 

@@ -115,7 +115,8 @@ Lesson find_lesson(const std::string& name) {
     for (const Lesson& lesson : all) {
         if (lesson.slug == beginning) return lesson;
         if (!beginning.empty() && lesson.slug.starts_with(beginning)) fitting.push_back(lesson);
-        if (!name.empty() && lesson.slug.find("_" + name) != std::string::npos) holding.push_back(lesson);
+        // Whole words only: of a mistyped folder "work", lesson 3 must not become the report.
+        if (!name.empty() && (lesson.slug + "_").find("_" + name + "_") != std::string::npos) holding.push_back(lesson);
     }
     if (fitting.empty()) fitting = holding;
     if (fitting.size() == 1) return fitting.front();

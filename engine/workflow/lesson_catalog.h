@@ -43,7 +43,7 @@ std::optional<Lesson> lesson_in(const std::filesystem::path& folder);
 /// two lessons with one name the first counts.
 std::vector<Lesson> lessons();
 
-/// The lesson whose slug starts with `name` ("02", "2", "02_least") or holds it as a word ("crane"), or that in a
+/// The lesson whose slug starts with `name` ("02", "2", "02_least") or holds it as a whole word ("crane"), or that in a
 /// folder of that path. Throws EnvironmentError that lists the lessons when none or several fit.
 Lesson find_lesson(const std::string& name);
 

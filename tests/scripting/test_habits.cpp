@@ -42,7 +42,11 @@ TEST(habits, are_answered_with_the_remedy) {
         {"step G", "write a call as step(G)"},
         {"print x", "write a call as print(x)"},
         {"format long", "string.format(\"%.10g\", x)"},
-        {"srivc(iddata(randn(50), randn(50), 1), 1, 1, 0)", "write the orders as one table {1, 1, 0}"},
+        {"srivc(iddata(randn(50), randn(50), 1), 1, 2, 0)", "write the orders as one table {1, 2, 0}"},
+        {"x = zeros(3); x(1) = 5", "write an element as x[1]"},
+        {"load mydata.csv", "write a call as load(\"mydata.csv\")"},
+        {"A = [1 2; 3 4]; A'", "write a vector as vector{1, 2, 3} and a matrix as matrix{{1, 2}, {3, 4}}"},
+        {"A = eye(2)\nB = A @ A", "write the product of two matrices as A*B"},
         {"montecarlo{system = tf({1}, {1, 1}), input = prbs(5, 4), Ts = 0.1, sigma = 0.1, runs = 3, estimators = "
          "{srivc = {1, 1, 0}}}",
          "contains the table of orders: srivc = {{1, 1, 0}}"},

@@ -147,8 +147,13 @@ void Call::at_most(int arguments) const {
     const Message given = plural(arguments_, "{} was given", "{} were given");
     if (arguments == 0) throw InvalidArgument("accepts no arguments, but {}", given);
     const Message all = plural(arguments, "{} argument", "{} arguments");
-    if (orders)
-        throw InvalidArgument("accepts at most {}, but {}; write the orders as one table {}", all, given, "{1, 1, 0}");
+    if (orders) {
+        std::vector<std::string> numbers;
+        for (int i = 2; i <= arguments_ && lua_type(state_, i) == LUA_TNUMBER; ++i)
+            numbers.push_back(fmt::format("{:g}", lua_tonumber(state_, i)));
+        throw InvalidArgument("accepts at most {}, but {}; write the orders as one table {}", all, given,
+                              fmt::format("{{{}}}", fmt::join(numbers, ", ")));
+    }
     // An option in the form of MATLAB: a name, after an argument at least, then its value.
     const bool takes_options = function != nullptr && !function->options.empty();
     for (const int name : {arguments, arguments + 1})

@@ -145,9 +145,9 @@ Message element_hint(const std::string& code) {
     static const RE2 kTwoPlaces(R"(\w\[\s*[\w.:]+\s*,)", RE2::Latin1);
     if (RE2::PartialMatch(code, kTwoPlaces)) return Message("the element in row 1 and column 2 is A[{1, 2}]");
     if (contains(code, "?")) return Message("Lua has no '?' operator; write if ... then ... else ... end");
-    static const RE2 kElementSet(R"(\s*(?:local\s+)?([A-Za-z_]\w*)\(([\w\s,:#]+)\)\s*=[^=].*)", RE2::Latin1);
+    static const RE2 kElementSet(R"((?:^|;)\s*(?:local\s+)?([A-Za-z_]\w*)\(([\w\s,:#]+)\)\s*=[^=])", RE2::Latin1);
     std::string name, place;
-    if (RE2::FullMatch(code, kElementSet, &name, &place))
+    if (RE2::PartialMatch(code, kElementSet, &name, &place))
         return contains(place, ",") ? Message("write an element of a matrix as {}[{{}}]", name, place)
                                     : Message("write an element as {}[{}]", name, place);
     static const RE2 kImaginary(R"((^|[^\w.])\d+(\.\d*)?[ij]\b)", RE2::Latin1);
@@ -195,15 +195,16 @@ Message block_hint(const std::string& code) {
 /// Commands of words alone: hold on, close all, clear x y; step G; ?lsim.
 Message command_hint(const std::string& code, const std::string& near) {
     static const RE2 kAsked(R"(\s*\?\s*(\w+)\s*)", RE2::Latin1),
-        kTwoWords(R"(\s*([A-Za-z_]\w*)[ \t]+(\w+)[\s;]*)", RE2::Latin1);
+        kTwoWords(R"(\s*([A-Za-z_]\w*)[ \t]+(\w+(?:[./-]\w+)*)[\s;]*)", RE2::Latin1);
     std::string first, second;
     if (RE2::FullMatch(code, kAsked, &first)) return Message("to get help, write help(\"{}\")", first);
     const bool words_only = std::ranges::all_of(
         code, [](char c) { return name_character(c) || std::string_view(" \t\r;").find(c) != std::string_view::npos; });
     const Message* const hint = words_only ? matlab_name_hint(first_word(code)) : nullptr;
     if (hint != nullptr) return *hint;
-    if (block_hint(code).empty() && RE2::FullMatch(code, kTwoWords, &first, &second) && second == near &&
-        first != "local" && first != "return" && first != "goto" && first != "function")
+    if (block_hint(code).empty() && RE2::FullMatch(code, kTwoWords, &first, &second) &&
+        second.substr(0, second.find_first_of("./-")) == near && first != "local" && first != "return" &&
+        first != "goto" && first != "function")
         return first == "help" || first == "load" || first == "run" || first == "require"
                    ? Message("write a call as {}(\"{}\")", first, second)
                    : Message("write a call as {}({})", first, second);
@@ -268,11 +269,15 @@ Message matlab_syntax_hint(const std::string& line, const std::string& near) {
     if (Message hint = operator_hint(code); !hint.empty()) return hint;
     if (ends_with(code, "...") && near != ")")
         return Message("omit \"...\"; in Lua, a statement can continue on the next line");
+    const auto list_form = [] {
+        return Message("write a vector as vector{1, 2, 3} and a matrix as matrix{{1, 2}, {3, 4}}");
+    };
+    if (near == "[" && has_bracket_list(code)) return list_form();
+    if (near == "@" && !contains(code, "@(")) return Message("write the product of two matrices as A*B");
     if (has_transpose(code)) return Message("the transpose is A:t(); a vector is already a column");
     if (Message hint = block_hint(code); !hint.empty()) return hint;
     if (Message hint = element_hint(code); !hint.empty()) return hint;
-    if (has_bracket_list(code))
-        return Message("write a vector as vector{1, 2, 3} and a matrix as matrix{{1, 2}, {3, 4}}");
+    if (has_bracket_list(code)) return list_form();
     if (contains(code, "lambda ")) return inline_function_form();
     if (has_colon_range(code))
         return Message(

@@ -45,6 +45,16 @@ TEST(given_script, folders_without_a_lesson_list_what_is_missing) {
     EXPECT_THAT(refusal("own"), HasSubstr("own' contains no lesson.lua; the lessons are"));
 }
 
+/// The name of a folder that is not there is no part of a lesson's name.
+TEST(given_script, lessons_are_found_by_number_beginning_and_whole_word_only) {
+    for (const auto& [name, slug] : {std::pair("03_c", "03_crane"), {"crane", "03_crane"}, {"4", "04_estimators"}}) {
+        const std::string found = error_of([&] { EXPECT_EQ(find_lesson(name).slug, slug); });
+        EXPECT_EQ(found, "") << name;
+    }
+    for (const char* part : {"work", "e", "least_sq", "ork"})
+        EXPECT_THAT(error_of([&] { find_lesson(part); }), HasSubstr("unknown lesson or folder")) << part;
+}
+
 TEST(given_script, that_is_no_script_is_refused_with_the_command_to_type) {
     const WorkFolder work;
     work.write("mine/analysis.lua", "print(1)\n");
