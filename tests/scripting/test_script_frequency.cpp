@@ -11,6 +11,7 @@ using dynlab::test::printed;
 using dynlab::test::run;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 const std::string kResponse =
@@ -91,6 +92,24 @@ TEST(script_frequency, spectral_estimates_are_quiet_when_asked) {  // oracle: th
         EXPECT_EQ(printed(quiet + "local _, G = " + method + "(d)\nprint(fig, F.response[9].re == G.response[9].re)"),
                   printed(data_set + method + "(d)") + "nil\ttrue\n");
     }
+}
+
+TEST(script_frequency, few_noisy_samples_give_a_figure_and_a_sentence) {
+    const std::string few =
+        "for N = 8, 29 do\n"
+        "  rng(N)\n"
+        "  local u = randn(N)\n"
+        "  local y = lsim(tf({1}, {1, 1}), u, 0.5) + 0.3*randn(N)\n"
+        "  local fig, F = spa(iddata(y, u, 0.5))\n"
+        "  bode(F)\n"
+        "  if N == 10 then print('10: ' .. (F.warnings[1] or '')) end\n"
+        "end\n";
+    const std::string text = printed(few);
+    EXPECT_THAT(text, Not(HasSubstr("ERROR")));
+    EXPECT_THAT(
+        text, HasSubstr("\n10: The response does not differ significantly from zero at any frequency, so its phase is "
+                        "unknown. Use more samples or a stronger input.\n"));
+    EXPECT_EQ(run(few).figures.size(), 2u * 22u);
 }
 
 TEST(script_frequency, drawings_take_responses_and_models_in_any_order) {

@@ -106,9 +106,13 @@ void print_message(const Call& call, const Message& message, const std::vector<M
     call.print(localized(call, sentences(std::move(all))) + "\n");
 }
 
-int give_spectral(const Call& call, const Options& options, SpectralModels& read, const SpectralEstimate& estimate,
+int give_spectral(const Call& call, const Options& options, SpectralModels& read, SpectralEstimate estimate,
                   const char* method, bool smoothed) {
     const double confidence = confidence_option(options);
+    if (!has_known_phase(estimate, confidence))
+        estimate.warnings.push_back(Message(
+            "The response does not differ significantly from zero at any frequency, so its phase is unknown. Use more "
+            "samples or a stronger input."));
     name_models(options, read.models);
     for (NamedModel& model : read.models) model.beside = {read.data.Ts, inter_sample_of(read.data.hold)};
     if (options.flag("quiet", false)) {

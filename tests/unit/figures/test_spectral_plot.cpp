@@ -83,6 +83,35 @@ TEST(spectral_plot, the_phase_has_a_gap_where_nothing_is_known_of_it) {
     EXPECT_FALSE(std::isnan(spectral_plot(estimate, Message("spa"), {}).panels[1].curves[0].y[2]));
 }
 
+TEST(spectral_plot, phase_unknown_at_all_frequencies_is_a_sentence) {
+    SpectralEstimate estimate = lag();
+    estimate.std = estimate.response.cwiseAbs() / kQuantile * 1.01;
+    EXPECT_FALSE(has_known_phase(estimate, 0.99));
+    EXPECT_TRUE(has_known_phase(estimate, 0.95));
+    const Figure alone = spectral_plot(estimate, Message("spa"), {});
+    alone.validate();
+    EXPECT_EQ(alone.panels[0].curves.size(), 2u);  // magnitude and its band
+    EXPECT_TRUE(alone.panels[1].curves.empty());
+    ASSERT_EQ(alone.panels[1].annotations.size(), 1u);
+    EXPECT_EQ(message_text(alone.panels[1].annotations[0].text), "The data do not determine the phase.");
+    const Figure compared = spectral_plot(estimate, Message("spa"), {{Message("a"), kLag}});
+    compared.validate();
+    ASSERT_EQ(compared.panels[1].curves.size(), 1u);
+    EXPECT_EQ(message_text(compared.panels[1].curves[0].label), "a");
+    EXPECT_EQ(compared.panels[1].curves[0].color, 1);
+}
+
+TEST(spectral_plot, zero_response_is_a_sentence) {
+    SpectralEstimate estimate = lag();
+    estimate.response.setZero();
+    estimate.std = Vector::Constant(4, 0.1);
+    const Figure figure = spectral_plot(estimate, Message("spa"), {});
+    figure.validate();
+    EXPECT_TRUE(figure.panels[0].curves.empty());
+    ASSERT_EQ(figure.panels[0].annotations.size(), 1u);
+    EXPECT_EQ(message_text(figure.panels[0].annotations[0].text), "The estimated response is zero.");
+}
+
 TEST(spectral_plot, models_lie_over_the_estimate_in_colors_of_their_own) {
     SpectralEstimate estimate = lag();
     estimate.w = Vector{{0.25, 0.5, 1, 2}};
