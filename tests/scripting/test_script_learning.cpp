@@ -115,7 +115,8 @@ TEST(script_learning, bad_input_is_refused_in_words) {
            "u has no input 1; it has no inputs");
     expect(kSindyData + "sindy(data, {library = function(x) return x[1], x[2] end})", "must return one list");
     expect(kNarxData + "narx(data[{1, 30}], {3, 3, 1}, {degree = 3})",
-           "27 samples have all required past values, which is too few for 84 candidate terms");
+           "27 samples have all required past values, which is too few for 84 candidate terms. Use at least 58 "
+           "more samples, or set degree = 1 or {na, nb, nk} = {1, 1, 1}");
     expect(kNarxData + "dmdc(data, {rank = 5})", "rank is 5, but a snapshot has only 1");
 }
 

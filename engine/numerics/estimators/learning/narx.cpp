@@ -133,6 +133,47 @@ std::string equation_text(const IdData& data, const NarxFit& found) {
     return text;
 }
 
+double candidate_count(Index variables, int degree) {
+    double count = 1;
+    for (int d = 1; d <= degree; ++d) count *= static_cast<double>(variables + d) / static_cast<double>(d);
+    return std::round(count);
+}
+
+bool has_enough_samples(const IdData& data, const NarxLags& lags, int degree, Index terms) {
+    const auto rows = static_cast<double>(equation_count(data, lags));
+    const double candidates = candidate_count(lags.variables(), degree);
+    const auto least = static_cast<double>(std::max<Index>(terms, 1));
+    return lags.variables() > 0 && candidates >= least && rows > candidates && rows > least + 1;
+}
+
+/// "{2, {1, 2}, {1, 3}}", as the orders are given.
+std::string orders_text(const NarxLags& lags) {
+    const auto list = [](const std::vector<int>& values) {
+        std::string text;
+        for (const int value : values) text += (text.empty() ? "" : ", ") + std::to_string(value);
+        return values.size() == 1 ? text : "{" + text + "}";
+    };
+    return "{" + std::to_string(lags.na) + ", " + list(lags.nb) + ", " + list(lags.nk) + "}";
+}
+
+/// The highest lower degree, and the most past values, that suit the number of samples.
+std::vector<Message> smaller_structures(const IdData& data, const NarxLags& lags, const NarxOptions& options) {
+    std::vector<Message> found;
+    for (int degree = options.degree - 1; degree >= 1 && found.empty(); --degree)
+        if (has_enough_samples(data, lags, degree, options.terms))
+            found.push_back(Message("{} = {}", OptionName{"degree"}, degree));
+    const int most = std::max(lags.na, *std::ranges::max_element(lags.nb));
+    for (int limit = most - 1; limit >= 1; --limit) {
+        NarxLags fewer = lags;
+        fewer.na = std::min(fewer.na, limit);
+        for (int& nb : fewer.nb) nb = std::min(nb, limit);
+        if (!has_enough_samples(data, fewer, options.degree, options.terms)) continue;
+        found.push_back(Message("{na, nb, nk} = {}", orders_text(fewer)));
+        break;
+    }
+    return found;
+}
+
 void check(const IdData& data, const NarxLags& lags, const NarxOptions& options, Index candidates) {
     check_sampled_data("narx", data);
     if (data.output_count() != 1)
@@ -141,16 +182,27 @@ void check(const IdData& data, const NarxLags& lags, const NarxOptions& options,
     if (options.terms > candidates)
         throw InvalidArgument("narx: {} terms are requested, but the lags and the degree allow only {}", options.terms,
                               plural(candidates, "{} candidate", "{} candidates"));
-    if (rows > least && rows <= candidates)
-        throw InvalidArgument(
-            "narx: only {} samples have all required past values, which is too few for {} candidate terms: use more "
-            "data, fewer lags or a lower degree",
-            rows, candidates);
-    if (rows <= least)
-        throw InvalidArgument(
-            "narx: the number of samples with all required past values is {}, but must be greater than {}. Use more "
-            "data, fewer lags or fewer terms",
-            std::max<Index>(rows, 0), least);
+    if (rows > std::max(least, candidates)) return;
+    const std::vector<Message> smaller = smaller_structures(data, lags, options);
+    const MessageList remedies{smaller, Join::kOr};
+    if (rows > least) {
+        const Message more = plural(candidates + 1 - rows, "{} more sample", "{} more samples");
+        throw InvalidArgument(smaller.empty()
+                                  ? Message("narx: only {} samples have all required past values, which is too few for "
+                                            "{} candidate terms. Use at least {}",
+                                            rows, candidates, more)
+                                  : Message("narx: only {} samples have all required past values, which is too few for "
+                                            "{} candidate terms. Use at least {}, or set {}",
+                                            rows, candidates, more, remedies));
+    }
+    throw InvalidArgument(
+        smaller.empty()
+            ? Message("narx: the number of samples with all required past values is {}, but must be greater than {}. "
+                      "Use more data, fewer lags or fewer terms",
+                      rows, least)
+            : Message("narx: the number of samples with all required past values is {}, but must be greater than {}. "
+                      "Use more data, or set {}",
+                      rows, least, remedies));
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 namespace test_narx {
 
 using namespace dynlab;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::UnorderedElementsAre;
@@ -149,12 +150,13 @@ TEST(narx, refuses_what_cannot_be_fitted) {
     EXPECT_THAT(thrown_message([&] {
                     narx(data, {60, {1}, {1}}, {1, 0});
                 }),
-                HasSubstr("all required past values is 0,"));
+                AllOf(HasSubstr("all required past values is 0,"), HasSubstr("or set {na, nb, nk} = {23, 1, 1}")));
     EXPECT_THAT(thrown_message([&] { narx(data, kLags, {2, -1}); }), HasSubstr("`terms`"));
     EXPECT_THAT(thrown_message([&] {
                     narx(data, kLags, {4, 0});
                 }),
-                HasSubstr("48 samples have all required past values, which is too few for 70 candidate terms"));
+                HasSubstr("48 samples have all required past values, which is too few for 70 candidate terms. Use at "
+                          "least 23 more samples, or set `degree` = 3 or {na, nb, nk} = {1, 1, 1}"));
     EXPECT_THAT(thrown_message([&] { narx(data, kLags, {2, 0, [] { return true; }}); }), HasSubstr("interrupted"));
     const NarxFit found = narx(data, kLags);
     IdData faster = data;
@@ -165,6 +167,22 @@ TEST(narx, refuses_what_cannot_be_fitted) {
                 HasSubstr("x0 must contain the first 2"));
     const IdData two(Matrix::Random(50, 2), Matrix::Random(50, 1), 1);
     EXPECT_THAT(thrown_message([&] { narx(two, kLags); }), HasSubstr("needs one output"));
+}
+
+TEST(narx, structures_that_the_message_for_few_samples_advises_can_be_estimated) {
+    const IdData whole = simulated_data(40, 0.1, 2);
+    for (Index N = 8; N <= 40; ++N) {
+        const IdData data = whole.range(1, N);
+        const std::string message = thrown_message([&] { narx(data, {3, {3}, {1}}); });
+        if (message.empty()) continue;
+        const bool degree = message.find("`degree` = 1") != std::string::npos;
+        if (degree) narx(data, {3, {3}, {1}}, {1, 0});
+        for (const int limit : {1, 2})
+            if (message.find("{na, nb, nk} = {" + std::to_string(limit)) != std::string::npos)
+                narx(data, {limit, {limit}, {1}});
+        EXPECT_EQ(degree, N - 3 > 7) << message;
+        EXPECT_EQ(message.find("{na, nb, nk} =") != std::string::npos, N - 1 > 6) << message;
+    }
 }
 
 }  // namespace test_narx
