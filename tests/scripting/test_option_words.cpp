@@ -55,6 +55,23 @@ TEST(option_words, errors_name_the_options_of_scripts) {
     }
 }
 
+TEST(option_words, delay_beyond_the_search_is_reported_with_the_option) {
+    const std::string late = R"(rng(1)
+local u = randn(400)
+local y = lsim(tf({2}, {1, 2}, {IODelay = 15}), u, 0.1) + 0.02*randn(400)
+local d = iddata(y, u, 0.1)
+)";
+    for (const char* message :
+         {"tfsrivc(d, 1, 0).report.message", "tfcoe(d, 1, 0).report.message", "tfrivc(d, 1, 0).report.message",
+          "procsrivc(d, 'P1D', {TdMax = 2}).report.message", "select(3, delayest(d, {poles = 1, zeros = 0})).message"})
+        EXPECT_THAT(dynlab::test::printed(late + "print(" + message + ")"),
+                    testing::ContainsRegex("The output responds about 15[.0-9]* s after the input, beyond the limit of "
+                                           "the search \\(TdMax = [.0-9]+ s\\): increase TdMax[.]"))
+            << message;
+    EXPECT_EQ(dynlab::test::printed(late + "print(string.format('%.0f', tfsrivc(d, 1, 0, {TdMax = 18}).IODelay))"),
+              "15\n");
+}
+
 TEST(option_words, messages_name_the_options_of_scripts) {
     for (const auto& [call, said] : std::vector<std::pair<std::string, std::string>>{
              {"procsrivc(d, 'P1D', {TdMax = 0.2})",

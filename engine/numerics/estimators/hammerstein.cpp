@@ -9,6 +9,7 @@
 #include "numerics/criteria/reparametrized.h"
 #include "numerics/criteria/transfer_output.h"
 #include "numerics/error.h"
+#include "numerics/fit/delay_scan.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/first_estimate.h"
 #include "numerics/fit/operating_points.h"
@@ -312,6 +313,11 @@ Fit hammerstein(const IdData& data, const TransferStructure& structure, const Ha
         Vector::Constant(1, fit_percent_of_sums(fit.loss * static_cast<double>(y.size()), output_variations(data)[0]));
     fit.start = {options.initial_state, false};
     add_warnings(fit, options);
+    if (at.delay) {
+        const double found = fit.theta[at.count() - 1];
+        if (found > 0.5 * range.largest) warn_of_delay(fit, found, range);  // only of the upper limit
+        warn_of_later_response(fit, data, 0, 0, found, range.largest);
+    }
     fit.message = Message(
         "Hammerstein model with {} values of the characteristic, after {}: {}, compared with {} % for the best linear "
         "model.",

@@ -332,7 +332,11 @@ Fit procsrivc(const IdData& data, const ProcessStructure& structure, const Procs
     for (std::size_t e = 0; e < data.experiments.size(); ++e) longest = std::max(longest, data.duration(e));
     warn_of_times(fit, data.mean_step(), longest);
     if (structure.zero) warn_of_zero(fit);
-    if (structure.delay) warn_of_delay(fit, fit.theta[fit.theta.size() - 1], problem.range);
+    if (structure.delay) {
+        const double delay = fit.theta[fit.theta.size() - 1];
+        warn_of_delay(fit, delay, problem.range);
+        warn_of_later_response(fit, data, 0, 0, delay, problem.range.largest);
+    }
     fit.message = process_message(fit);
     return fit;
 }

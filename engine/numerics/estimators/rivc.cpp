@@ -6,6 +6,7 @@
 #include "numerics/criteria/prediction_error_products.h"
 #include "numerics/error.h"
 #include "numerics/estimators/srivc.h"
+#include "numerics/fit/delay_scan.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/discrete/long_regression.h"
 #include "numerics/fit/discrete/prediction_fit.h"
@@ -278,6 +279,7 @@ Fit rivc_fit(const IdData& data, const TransferStructure& structure, const Noise
     result.delay_loss = start.delay_loss;
     fill_noise(result, passes, orders, data);
     describe_search(result, data, requested, range);
+    warn_of_later_responses(result, data, requested);
     result.message = has_settled(result)
                          ? Message("RIVC converged after {} for a simulation {}: {}.", iteration_count(result),
                                    description(result.start), simulation_text(result))

@@ -246,6 +246,76 @@ bool lowest_at_the_end(const DelayScan& scan) {
 
 }  // namespace
 
+namespace {
+
+/// Sums over all experiments of the products of x with y up to `lags` samples later.
+Vector later_products(const IdData& data, Index lags, const auto& x_of, const auto& y_of) {
+    Vector products = Vector::Zero(lags + 1);
+    for (const Experiment& experiment : data.experiments) {
+        const Vector x = x_of(experiment).array() - x_of(experiment).mean();
+        const Vector y = y_of(experiment).array() - y_of(experiment).mean();
+        products += lagged_products(x, y, lags).head(lags + 1).reverse();
+    }
+    return products;
+}
+
+}  // namespace
+
+std::optional<double> later_response(const IdData& given, Index output, Index input, double largest) {
+    constexpr double kChance = 5, kMoreClearly = 1.5;  // standard deviations; ratio
+    if (!given.regular()) return std::nullopt;
+    const IdData data = beginning_of(given, kScannedSamples);
+    Index shortest = std::numeric_limits<Index>::max();
+    for (const Experiment& experiment : data.experiments) {
+        if (is_a_step(experiment, input)) return std::nullopt;
+        shortest = std::min(shortest, experiment.y.rows());
+    }
+    const auto u = [input](const Experiment& experiment) { return experiment.u.col(input); };
+    const auto y = [output](const Experiment& experiment) { return experiment.y.col(output); };
+    const Index lags = 3 * shortest / 4, first = static_cast<Index>(std::ceil(largest / data.Ts)) + 1;
+    if (first > lags) return std::nullopt;
+    const Vector both = later_products(data, lags, u, y);
+    const Vector of_u = later_products(data, shortest / 4, u, u), of_y = later_products(data, shortest / 4, y, y);
+    const double power = of_u[0] * of_y[0];
+    if (!(power > 0 && std::isfinite(power))) return std::nullopt;
+    // Bartlett: the variance of a correlation of unrelated signals, times the number of products
+    const double spread = std::max(1.0, 2 * of_u.dot(of_y) / power - 1);
+    const auto samples = static_cast<double>(data.sample_count());
+    Vector clearness(lags + 1);
+    for (Index lag = 0; lag <= lags; ++lag) {
+        const double count = samples - static_cast<double>(lag) * static_cast<double>(data.experiments.size());
+        clearness[lag] = std::abs(both[lag]) * samples / std::sqrt(count * power * spread);
+    }
+    Index place = 0;
+    const double beyond = clearness.tail(lags + 1 - first).maxCoeff(&place);
+    if (!(beyond > kChance && beyond > kMoreClearly * clearness.head(first).maxCoeff())) return std::nullopt;
+    return static_cast<double>(first + place) * data.Ts;
+}
+
+void warn_of_later_response(Fit& fit, const IdData& data, Index output, Index input, double delay, double largest) {
+    if (!explains_little(fit.fit_percent[output]) || !(delay < largest * (1 - 1e-9))) return;
+    const std::optional<double> later = later_response(data, output, input, largest);
+    if (!later) return;
+    const OptionName limit{"largest_delay"};
+    const Number seconds = significant(*later, 3);
+    fit.warnings.push_back(
+        data.input_count() == 1 && data.output_count() == 1
+            ? Message("The output responds about {} {} after the input, beyond the limit of the search ({} = {} {}): "
+                      "increase {}.",
+                      seconds, data.time_unit, limit, largest, data.time_unit, limit)
+            : Message("Output {} responds about {} {} after input {}, beyond the limit of the search ({} = {} {}): "
+                      "increase {}.",
+                      output + 1, seconds, data.time_unit, input + 1, limit, largest, data.time_unit, limit));
+}
+
+void warn_of_later_responses(Fit& fit, const IdData& data, const FitOptions& options) {
+    if (!fit.structure.free_delays || fit.termination == Termination::kCanceled) return;
+    const double largest = delay_range(data, options).largest;
+    for (Index output = 0; output < fit.structure.outputs; ++output)
+        for (Index input = 0; input < fit.structure.inputs; ++input)
+            warn_of_later_response(fit, data, output, input, fit.structure.delay(fit.theta, output, input), largest);
+}
+
 TransferStructure with_fixed_delays(TransferStructure structure) {
     structure.free_delays = false;
     return structure;

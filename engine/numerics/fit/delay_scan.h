@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "numerics/fit/fit.h"
@@ -18,6 +19,16 @@ struct DelayScan {
 /// at least a few samples, at most a quarter of the shortest experiment. For inputs that change three times or less,
 /// whose correlation does not show the delay, it is the quarter.
 double likely_largest_delay(const IdData& data);
+
+/// The lag (s) beyond `largest` at which the output is correlated with the input by more than chance, and more clearly
+/// than at any shorter lag. No value for irregularly sampled data and for inputs that change three times or less. Lags
+/// up to three quarters of the shortest experiment are tested; of longer data the first 50,000 samples.
+std::optional<double> later_response(const IdData& data, Index output, Index input, double largest);
+
+/// Warns of a later response if the fit explains little of the output with a delay below `largest`.
+void warn_of_later_response(Fit& fit, const IdData& data, Index output, Index input, double delay, double largest);
+/// For all channels of a fit with free delays, found in the range that the options give.
+void warn_of_later_responses(Fit& fit, const IdData& data, const FitOptions& options);
 
 /// theta of fixed delays with the delays put in their places.
 Vector with_delays(const TransferStructure& free, const TransferStructure& at, const Vector& theta);

@@ -342,6 +342,7 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
     best.message = output_error_message(best);
     if (remove) add_operating_points(best, centered.removed);
     withdraw_errors_of_rivals(best, data_set, scan);
+    warn_of_later_responses(best, data_set, options);
     best.delay_grid = scan.delays;
     best.delay_loss = scan.losses;
     return best;

@@ -1,12 +1,15 @@
 // Oracles: fits at fixed delays, and the delays of the data.
 #include "numerics/fit/delay_scan.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <utility>
 
+#include "base/reader.h"
 #include "numerics/fit/transfer_search.h"
+#include "numerics/signals/random.h"
 #include "support/transfer_cases.h"
 
 namespace test_delay_scan {
@@ -82,6 +85,40 @@ TEST(delay_scan, the_beginning_of_an_irregular_record_is_scanned_where_it_repres
         EXPECT_NEAR(scan.starts.front()[2], delay, 0.1) << rest;
         EXPECT_NEAR(search_transfer("test", data, structure, {}).theta[2], delay, 0.02) << rest;
     }
+}
+
+/// White noise, late at the output by so many samples, with as much noise.
+IdData late_data(Index samples, Index delay, std::uint32_t seed) {
+    RandomStream random(seed);
+    const Vector u = random.normal(samples);
+    Vector y = random.normal(samples);
+    if (delay < samples) y.tail(samples - delay) += u.head(samples - delay);
+    return IdData(Matrix(y), Matrix(u), 0.1);
+}
+
+TEST(delay_scan, later_response_is_found_beyond_the_range_only) {
+    for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+        const IdData data = late_data(400, 150, seed);
+        const std::optional<double> later = later_response(data, 0, 0, 2);
+        ASSERT_TRUE(later);
+        EXPECT_NEAR(*later, 15, 1e-9);
+        EXPECT_FALSE(later_response(data, 0, 0, 16));
+        EXPECT_FALSE(later_response(late_data(400, 400, seed), 0, 0, 2)) << seed;  // no response at all
+    }
+}
+
+TEST(delay_scan, delay_beyond_the_range_is_a_warning_with_the_option) {
+    TransferStructure structure = TransferStructure::single(1, 0);
+    structure.free_delays = true;
+    const IdData data = late_data(400, 150, 3);
+    EXPECT_THAT(message_text(search_transfer("test", data, structure, {}).full_message()),
+                testing::HasSubstr("The output responds about 15 s after the input, beyond the limit of the search "
+                                   "(`largest_delay` = "));
+    FitOptions wide;
+    wide.largest_delay = 18;
+    const Fit found = search_transfer("test", data, structure, wide);
+    EXPECT_NEAR(found.models.front().delay(), 15, 0.2);
+    EXPECT_THAT(message_text(found.full_message()), testing::Not(testing::HasSubstr("beyond the limit")));
 }
 
 }  // namespace test_delay_scan
