@@ -148,9 +148,8 @@ TEST(program_errors, wrong_words_are_reported_in_all_programs_and_nothing_is_wri
     bench.write("mine/report.pdf", "%PDF the good one");
     bench.write("capital/Analysis.lua", "print(1)\n");
     expect_failure(bench.dynlab({"run"}), 2, "a script FILE or -e CODE");
-    expect_failure(
-        bench.dynlab({"raport", "mine"}), 2,
-        "dynlab: unknown command 'raport'; did you mean 'report'?\nFor more information, run dynlab --help");
+    expect_failure(bench.dynlab({"raport", "mine"}), 2,
+                   "dynlab: unknown command 'raport'; did you mean 'report'?\nFor more information, run dynlab --help");
     expect_failure(bench.dynlab({"course", "statu", "here"}), 2,
                    "dynlab: dynlab course has no command 'statu'; did you mean 'status'?\n");
     for (const std::string command : {"report", "check"})

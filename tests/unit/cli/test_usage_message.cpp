@@ -26,9 +26,8 @@ TEST(usage_message, of_a_misspelt_command_or_option_suggests_the_nearest) {
                        "dynlab: dynlab report has no option '--outputt'; did you mean '--output'?\n");
     expect_wrong_usage({"xyzzy", "a"}, "dynlab: unknown command 'xyzzy'\n");
     expect_wrong_usage({"report", "a", "b", "c"}, "dynlab: too many arguments: b c\n");
-    expect_wrong_usage(
-        {"mine.lua"},
-        "dynlab: to run a script, use: dynlab run mine.lua\nFor more information, run dynlab --help");
+    expect_wrong_usage({"mine.lua"},
+                       "dynlab: to run a script, use: dynlab run mine.lua\nFor more information, run dynlab --help");
 }
 
 TEST(usage_message, of_missing_and_excluding_words_is_an_error_of_usage) {
