@@ -65,8 +65,9 @@ TEST(gradebook_memory, marks_of_two_kinds_are_never_mixed) {
     // A penalty of all points waits until it is accepted, and stays so.
     const ChildResult waiting = bench.grade(again);
     EXPECT_EQ(waiting.exit_code, 1);
-    EXPECT_THAT(waiting.output, AllOf(HasSubstr("2 late:\n  \"a\" is late by "), HasSubstr("2 notes need attention:"),
-                                      HasSubstr("a penalty of 100 % is not applied yet; apply it with --accept-late")));
+    EXPECT_THAT(waiting.output,
+                AllOf(HasSubstr("2 late:\n  \"a\" is late by "), HasSubstr("2 notes need attention:"),
+                      HasSubstr("a penalty of 100 % is not applied yet; confirm it with --accept-late")));
     EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr(",a,graded,5,5,0,"));
     std::vector<std::string> accepted = all;
     accepted.push_back("--accept-late");
