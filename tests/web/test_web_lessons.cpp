@@ -121,6 +121,23 @@ TEST(web_lessons, stop_an_endless_loop_and_go_on) {
         browser.becomes_true("document.querySelector('[data-cell=times] pre.output')?.textContent === 'again'"));
 }
 
+/// Stop while the engine still loads: the worker that was ended is not begun again in place of the new one.
+TEST(web_lessons, begin_one_worker_after_two_stops) {
+    SKIP_WITHOUT_WEB_ENGINE();
+    Browser browser;
+    open_lesson(browser);
+    EXPECT_EQ(
+        browser.evaluate(
+            "return (async () => { const { engine } = await import('../../page/engine.js'), send = engine.send;"
+            "let begun = 0; engine.send = (act, what) => { begun += act === 'begin'; return send.call(engine, act, "
+            "what); }; engine.end().catch(() => {}); await engine.end(); await engine.begin(); return begun; })()"),
+        "1");
+    write_code(browser, "times", "print(\"again\")");
+    browser.click("[data-cell=times] .run-cell");
+    EXPECT_TRUE(
+        browser.becomes_true("document.querySelector('[data-cell=times] pre.output')?.textContent === 'again'"));
+}
+
 TEST(web_lessons, refuse_more_memory_than_there_is_in_a_sentence) {
     SKIP_WITHOUT_WEB_ENGINE();
     Browser browser;

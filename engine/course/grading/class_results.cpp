@@ -73,28 +73,25 @@ std::string shown_name(const Submission& submission) {
     return fmt::format("{} ({})", submission.person, submission.lms_id);
 }
 
-/// What is best in a submission, the first first: its marks, as if a penalty that waits were confirmed; its marks by
-/// its checks, where the instructor marked the whole; that it is newer. One without marks is never before one with.
-auto merit(const Entry& entry) {
-    const double percent_left = 100 - entry.item->lateness.waiting_percent;
-    double marks = -1, by_checks = -1;
-    if (entry.grade && !entry.grade->without_marks()) {
-        Grade grade = *entry.grade;
-        const bool whole = grade.whole_mark.has_value();
-        marks = grade.earned() * (whole ? 1 : percent_left / 100);
-        grade.whole_mark.reset();
-        by_checks = grade.earned() * percent_left / 100;
-    }
-    return std::tuple(marks, by_checks, entry.item->received);
+bool has_marks(const Entry& entry) {
+    return entry.grade && !entry.grade->without_marks();
 }
 
-/// Of several submissions of one student, the one that counts.
+/// Orders the submissions of one owner: by marks, then by the marks of the checks alone where the instructor marked the
+/// whole, then by time. A penalty that waits for confirmation is taken off.
+auto merit(const Entry& entry) {
+    if (!has_marks(entry)) return std::tuple(-1.0, -1.0, entry.item->received);
+    Grade by_checks = *entry.grade;
+    by_checks.whole_mark.reset();
+    const double left = by_checks.earned() * (1 - entry.item->lateness.waiting_percent / 100);
+    return std::tuple(entry.grade->whole_mark ? entry.grade->earned() : left, left, entry.item->received);
+}
+
+/// Of two submissions of one owner, the one that counts. One without marks never counts before one with marks.
 const Entry* counting(const Entry* a, const Entry* b, bool newest_counts) {
     if (a == nullptr) return b;
-    const auto of_a = merit(*a), of_b = merit(*b);
-    if (newest_counts && std::get<0>(of_a) >= 0 && std::get<0>(of_b) >= 0)
-        return b->item->received > a->item->received ? b : a;
-    return of_b > of_a ? b : a;
+    if (newest_counts && has_marks(*a) && has_marks(*b)) return b->item->received > a->item->received ? b : a;
+    return merit(*b) > merit(*a) ? b : a;
 }
 
 /// For each student.

@@ -78,8 +78,8 @@ void take_back_lost_rows(Course& course, const Assignment& assignment, const Cou
     }
 }
 
-/// A row that the instructor changed, and that says other points than the row before it of the same work, or than a
-/// command meanwhile: which is right?
+/// The rows that the instructor changed. Refuses a row that contradicts an earlier one about the same work, or a
+/// command since the last grading: only the instructor knows which mark is right.
 class ChangedRows {
   public:
     explicit ChangedRows(const fs::path& results) : file_((results / kMarksFile).string()) {}

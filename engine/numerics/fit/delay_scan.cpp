@@ -244,10 +244,6 @@ bool lowest_at_the_end(const DelayScan& scan) {
     return best + 1 == scan.losses.size();
 }
 
-}  // namespace
-
-namespace {
-
 /// Sums over all experiments of the products of x with y up to `lags` samples later.
 Vector later_products(const IdData& data, Index lags, const auto& x_of, const auto& y_of) {
     Vector products = Vector::Zero(lags + 1);

@@ -55,7 +55,7 @@ const open = () => {
   return opened;
 };
 
-/// Some parts of the script after the others; orders that arrive meanwhile come between.
+/// Runs the script, some parts with each request; orders that arrive meanwhile run between two requests.
 let working = false;
 async function work() {
   if (working) return;

@@ -19,14 +19,15 @@ class Engine {
     return Promise.all([this.compiled, this.data]);
   }
   begin() {
-    this.begun ??= this.start();
-    this.begun.catch(() => { this.begun = null; });
-    return this.begun;
+    const begun = this.begun ??= this.start();
+    begun.catch(() => { if (this.begun === begun) this.begun = null; });
+    return begun;
   }
   async start() {
-    this.worker ??= new Worker(new URL("engine_worker.js", here));  // it loads while the engine is compiled
-    this.worker.onmessage = ({ data }) => this.hear(data);
+    const worker = this.worker ??= new Worker(new URL("engine_worker.js", here));  // it loads while the engine is compiled
+    worker.onmessage = ({ data }) => this.hear(data);
     const [compiled, index] = await this.compile();
+    if (this.worker !== worker) throw new Error("stopped");  // end() began another one meanwhile
     const home = new URL("engine/", root).href, address = new URL("data/", root).href;
     await this.send("begin", { script: home + "dynlab.js", compiled, home, data: { index, address } });
     this.sent = null;

@@ -145,7 +145,7 @@ const acts = {
     if (order.path === "script") speak(languageOf(JSON.parse(order.body).text ?? ""));
     return JSON.parse(engine.ccall("dynlab_ask_bench", "string", ["string"], [JSON.stringify(order)]));
   },
-  /// Part after part for a moment, in which no order gets between; whether more are to run.
+  /// Runs parts of the script for kMoment; orders that arrive meanwhile wait. Returns whether parts remain.
   workForBench() {
     const until = performance.now() + kMoment;
     let more = true;

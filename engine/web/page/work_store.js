@@ -47,8 +47,8 @@ export async function keepNote(key, name, text) {
 }
 
 const kAnswer = 150;  // ms in which another tab says that it is there
-/// Only one tab writes the work of a lesson. `onChange(writes)` is called when that changes; returns {writes, take(), answered: when other tabs
-/// have had the time to say so}.
+/// Only one tab writes the work of a lesson. `onChange(writes)` is called when that changes. Returns {writes, take(), answered}; `answered`
+/// is a promise for the time when other tabs have answered.
 export function oneWriter(key, onChange) {
   const line = "BroadcastChannel" in window ? new BroadcastChannel(`dynlab ${key}`) : null, me = String(Math.random());
   let writes = true, asking = true;
