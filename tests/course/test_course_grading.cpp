@@ -91,6 +91,54 @@ TEST_F(course_grading, lab_is_graded_marked_extended_and_totalled) {
     EXPECT_THAT(book(), HasSubstr("223,Max Mustermann,group-02,graded,6,6,0,"));
 }
 
+// oracle: the points as they are given below, of 6; nothing by the deadline is 0
+TEST_F(course_grading, both_exports_give_a_platform_the_same_marks) {
+    work().write("more.csv",
+                 "id,name,group,mail,language\n221,Kim Min-jun,group-01,,\n222,Élise Petit,group-01,,\n"
+                 "223,Max Mustermann,group-02,m@u.example,fr\n224,Max Mustermann,group-03,max@u.example,\n");
+    done({"import", "more.csv"});
+    submit("group-01", kSolution, "2026-02-27 12:00");
+    submit("group-03", kSolution, "2026-02-27 12:00");
+    grade();
+    done({"mark", "lab4", "group-01", "q", "4"});
+    done({"mark", "lab4", "222", "q", "1", "--alone", "--reason", "was not there"});
+    done({"mark", "lab4", "group-03", "q", "5", "--force"});
+    EXPECT_EQ(grade().exit_code, 0);
+    EXPECT_THAT(book(), AllOf(HasSubstr("221,Kim Min-jun,group-01,graded,6,6,0,0,2,4,,"),
+                              HasSubstr("222,Élise Petit,group-01,graded,3,6,0,0,2,1,,was not there"),
+                              HasSubstr("223,Max Mustermann,,nothing submitted,0,6,"),
+                              HasSubstr("224,Max Mustermann,group-03,graded,7,6,0,0,2,5,,")));
+    EXPECT_THAT(work().read("k/marks/lab4/results/group-03/feedback.md"), HasSubstr("7 of 6"));
+    const auto sheet = [](const std::vector<std::string>& grades) {
+        const std::vector<std::string> people = {"Kim Min-jun,", "Élise Petit,", "Max Mustermann,m@u.example",
+                                                 "Max Mustermann,MAX@u.example"};
+        std::string text = "Identifier,Full name,Email address,Grade,Maximum grade\n";
+        for (std::size_t i = 0; i < people.size(); ++i)
+            text += "Participant " + std::to_string(11 + i) + "," + people[i] + "," + grades[i] + ",12\n";
+        return text;
+    };
+    work().write("sheet.csv", sheet({"", "", "", ""}));
+    const std::string filled = sheet({"12", "6", "0", "14"});
+    EXPECT_EQ(done({"export", "lab4", "--worksheet", "sheet.csv"}), filled);
+    const auto handed_back = [&] {
+        return work().dynlab({"export-grades", "k/marks/lab4", "--worksheet", "sheet.csv"});
+    };
+    const ChildResult back = handed_back();
+    EXPECT_EQ(back.exit_code, 0) << back.error_output;
+    EXPECT_EQ(work().read("k/marks/lab4/handed_back/moodle-grades.csv"), filled);
+    EXPECT_THAT(back.error_output, HasSubstr("scaled from 6 points to the maximum grade of sheet.csv, which is 12"));
+    // Feedback and marks are of one state.
+    done({"mark", "lab4", "group-01", "q", "3"});
+    EXPECT_EQ(handed_back().exit_code, 1);
+    EXPECT_THAT(handed_back().error_output,
+                HasSubstr("the marks of 221 changed after the last grading. Run dynlab course grade lab4"));
+    grade();
+    EXPECT_EQ(handed_back().exit_code, 0);
+    work().dynlab({"export-grades", "k/marks/lab4"});
+    EXPECT_THAT(work().read("k/marks/lab4/handed_back/mail.csv"),
+                HasSubstr("224,Max Mustermann,group-03,max@u.example"));
+}
+
 // oracle: the maximum of the check; what was taken back is in force no more
 TEST_F(course_grading, marks_above_the_maximum_are_refused_and_marks_are_taken_back) {
     submit("group-01", "answer('x', 1)\n", "2026-02-27 12:00");

@@ -89,6 +89,21 @@ class LabCourse {
         transaction.commit();
         return fresh;
     }
+    /// The student belongs to another group from then on.
+    void move(const std::string& student, int to) {
+        Transaction transaction(course_.database());
+        course_.database().run("UPDATE memberships SET since = ?, until = ? WHERE student = ?", at("2026-01-01 12:00"),
+                               at("2026-02-10 12:00"), student);
+        course_.database().run("INSERT INTO memberships VALUES (?, ?, ?, NULL)", student, group(to),
+                               at("2026-02-10 12:00"));
+        transaction.commit();
+    }
+    void withdraw(std::int64_t version) {
+        Transaction transaction(course_.database());
+        course_.database().run("INSERT INTO withdrawals (version, withdrawn, reason, made_at) VALUES (?, 1, '', ?)",
+                               version, at("2026-02-11 12:00"));
+        transaction.commit();
+    }
     std::optional<double> earned(int i) {
         for (const LabMark& mark : lab_marks(course_, lab()))
             if (mark.group == group(i)) return mark.earned;
@@ -170,6 +185,21 @@ TEST(course_labs, total_weighs_the_assignments) {
     const std::string csv = totals_csv(course_totals(course.course(), course.at("2026-02-20 12:00")));
     EXPECT_THAT(csv, AllOf(HasSubstr("lab4 percent (weight 3)"), HasSubstr("total percent"),
                            HasSubstr("s1,Student 1,,,,group-01,"), HasSubstr(",80,,\r\n"), HasSubstr(",,,lab4\r\n")));
+}
+
+// oracle: the group of a student at its submission; work that was taken back is nobody else's work
+TEST(course_labs, withdrawn_work_does_not_give_a_student_the_marks_of_a_later_group) {
+    LabCourse course;
+    course.grade(course.submit(2, "2026-02-01 12:00"), 4, 6);
+    const std::int64_t own = course.submit(1, "2026-02-01 12:00");
+    course.grade(own, 1, 1);
+    course.move("s1", 2);
+    const auto percent = [&] {
+        return marks_of_students(course.course(), course.lab(), course.at("2026-03-05 12:00")).at("s1").percent;
+    };
+    EXPECT_EQ(percent(), 20);  // 2 of 10 points
+    course.withdraw(own);
+    EXPECT_EQ(percent(), 0) << "nothing was submitted by the group that the student was in";
 }
 
 // oracle: what the store knows of the student

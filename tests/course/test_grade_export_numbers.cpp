@@ -85,15 +85,15 @@ TEST_F(grade_export_numbers, a_worksheet_has_the_partner_s_number_too) {
     EXPECT_THAT(reported(back.notes), Not(HasSubstr("maximum grade")));
 }
 
-TEST_F(grade_export_numbers, a_worksheet_with_another_maximum_gets_points_and_a_note) {
+TEST_F(grade_export_numbers, a_worksheet_with_another_maximum_gets_scaled_points_and_a_note) {
     write("sheet.csv",
           "Identifier,Full name,Grade,Maximum grade,Feedback comments\nParticipant 99345,Élise Lefèvre,,100,\n"
           "Participant 99999,Ravi Rao,,100,\n");
     request_.worksheet = folder_.path() / "sheet.csv";
     const GradeExport back = write_grade_export(request_);
-    EXPECT_THAT(read("moodle-grades.csv"), HasSubstr("Participant 99345,Élise Lefèvre,13,100,"));
-    EXPECT_THAT(reported(back.notes), AllOf(HasSubstr("sheet.csv is 100, but 17 points are possible"),
-                                            HasSubstr("set the maximum grade on the platform to 17\n")));
+    EXPECT_THAT(read("moodle-grades.csv"), HasSubstr("Participant 99345,Élise Lefèvre,76.47,100,"));  // 13 / 17
+    EXPECT_THAT(reported(back.notes),
+                AllOf(HasSubstr("scaled from 17 points to the maximum grade"), HasSubstr("sheet.csv, which is 100\n")));
 }
 
 TEST_F(grade_export_numbers, unreadable_submissions_get_their_feedback_through_moodle) {

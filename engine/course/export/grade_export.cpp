@@ -15,7 +15,8 @@
 #include "course/intake/owners.h"
 #include "course/intake/roster.h"
 #include "course/issues/lesson_reader.h"
-#include "course/office/folder_grading.h"
+#include "course/office/course_grading.h"
+#include "course/office/course_totals.h"
 #include "data_io/text_table.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
@@ -29,7 +30,7 @@ namespace fs = std::filesystem;
 
 /// One row of the gradebook, with the additional fields that the platforms need.
 struct MarkedStudent : Recipient {
-    std::string submission, points, possible, canvas;
+    std::string submission, points, possible, canvas, language, own_reason;
     std::string number_in_name;  ///< the participant's number in the name of the submission's folder
     fs::path feedback;           ///< empty where there is none
 };
@@ -63,6 +64,25 @@ fs::path feedback_of(const fs::path& marks, const std::string& submission) {
     return {};
 }
 
+/// The course may know more than the last grading: a mark given by command, a withdrawn file, a deadline that passed.
+void refuse_changed_marks(Course& course, const std::string& assignment, const TextTable& gradebook,
+                          const fs::path& file) {
+    auto marks = marks_of_students(course, assignment_named(course, assignment), CourseClock::now());
+    const auto id = needed_column(gradebook, "id", file), points = needed_column(gradebook, "points", file);
+    std::vector<std::string> changed;
+    for (const auto& row : gradebook.rows) {
+        const auto& lab = marks[row[id]].lab;
+        const std::string now = lab && lab->earned ? points_text(*lab->earned) : "";
+        if (marks.erase(row[id]) > 0 && now != row[points]) changed.push_back(row[id]);
+    }
+    for (const auto& [student, mark] : marks)
+        if (mark.percent) changed.push_back(student);  // new since then
+    if (changed.empty()) return;
+    throw EnvironmentError(
+        "the marks of {} changed after the last grading. Run dynlab course grade {}, which also updates the feedback",
+        listed(changed, Join::kAnd), assignment);
+}
+
 std::vector<MarkedStudent> marked_students(const GradeExportRequest& request) {
     const fs::path file = request.marks / "gradebook.csv";
     if (!fs::exists(file))
@@ -71,8 +91,15 @@ std::vector<MarkedStudent> marked_students(const GradeExportRequest& request) {
     const TextTable table = read_text_table(file);
     const auto column = [&](const char* name) { return needed_column(table, name, file); };
     std::map<std::string, Student> known;
-    const std::vector<Student> students =
-        request.roster ? Roster(*request.roster).students() : stored_roster(request.marks);
+    std::vector<Student> students;
+    if (const auto results = course_of_results(request.marks)) {
+        Course course(results->folder);
+        if (!results->own) refuse_changed_marks(course, results->assignment, table, file);
+        students = students_of(course);
+        for (Student& student : students)  // the group of a student alone is called by the id
+            if (student.group == student.id) student.group.clear();
+    }
+    if (request.roster) students = Roster(*request.roster).students();
     for (const Student& student : students) known[student.id] = student;
     std::map<std::string, int> senders;  // by submission; one of several students gives no number
     for (const auto& row : table.rows) ++senders[row[column("submission")]];
@@ -81,10 +108,11 @@ std::vector<MarkedStudent> marked_students(const GradeExportRequest& request) {
         MarkedStudent one;
         one.id = row[column("id")], one.name = row[column("name")], one.submission = row[column("submission")];
         one.points = row[column("points")], one.possible = row[column("possible")];
+        if (const auto own = table.column("own mark")) one.own_reason = row[*own];
         if (one.name.empty() && one.id.empty()) one.name = one.submission;
         if (const auto found = known.find(one.id); found != known.end())
             one.group = found->second.group, one.mail = found->second.mail, one.moodle = found->second.moodle,
-            one.canvas = found->second.canvas;
+            one.canvas = found->second.canvas, one.language = found->second.language;
         if (const auto participant = moodle_participant(one.submission);
             participant && (senders[one.submission] == 1 || same_person(participant->second, one.name)))
             one.number_in_name = participant->first;
@@ -108,29 +136,6 @@ std::int64_t settle_numbers(std::vector<MarkedStudent>& students) {
     return contradicted;
 }
 
-/// The student of a row in a platform's table. The function compares id, platform number, mail and name, in this order,
-/// and takes the first that matches exactly one student; -1 if none does.
-std::ptrdiff_t student_of(const PlatformSheet::Person& person, PlatformSheet::Platform platform,
-                          const std::vector<MarkedStudent>& students) {
-    const auto only = [&](const auto& fits) {
-        const auto first = std::ranges::find_if(students, fits);
-        const bool one = first != students.end() && std::find_if(first + 1, students.end(), fits) == students.end();
-        return one ? first - students.begin() : std::ptrdiff_t{-1};
-    };
-    const bool canvas = platform == PlatformSheet::Platform::kCanvas;
-    const auto by_id = [&](const MarkedStudent& one) { return !person.id.empty() && one.id == person.id; };
-    const auto by_number = [&](const MarkedStudent& one) {
-        return (canvas ? one.canvas : one.number_in_name) == person.number;
-    };
-    const auto by_mail = [&](const MarkedStudent& one) {
-        return !person.mail.empty() && in_small_letters(one.mail) == in_small_letters(person.mail);
-    };
-    const auto by_name = [&](const MarkedStudent& one) { return same_person(one.name, person.name); };
-    for (const std::ptrdiff_t found : {only(by_id), only(by_number), only(by_mail), only(by_name)})
-        if (found >= 0) return found;
-    return -1;
-}
-
 /// Points as a table has them.
 Message points_in_cell(const std::string& cell) {
     const std::optional<double> value = number_in_cell(cell);
@@ -140,7 +145,13 @@ Message points_in_cell(const std::string& cell) {
 /// What Moodle shows beside the grade: a line for each check that lacks points; why there are no marks.
 std::string comments_on(const fs::path& marks, const MarkedStudent& student) {
     const fs::path file = marks / "results" / student.submission / "results.json";
-    if (student.submission.empty() || !fs::exists(file)) return "";
+    if (student.submission.empty() || !fs::exists(file)) {
+        if (student.points.empty()) return "";
+        const Message why = number_in_cell(student.points) == 0 && student.own_reason.empty()
+                                ? Message("Nothing was submitted before the deadline.")
+                                : Message::verbatim(student.own_reason);
+        return LessonReader(student.language).text(why);
+    }
     std::vector<ShownResult> shown;
     Grade grade;
     try {
@@ -153,6 +164,8 @@ std::string comments_on(const fs::path& marks, const MarkedStudent& student) {
     if (student.points.empty()) return LessonReader(grade.language, grade.lesson).text(grade.error_reason);
     MessageList lines{{Message("{} of {} points.", points_in_cell(student.points), points_in_cell(student.possible))},
                       Join::kLines};
+    if (!student.own_reason.empty())
+        lines.items.push_back(Message("You have a mark of your own: {}", Message::verbatim(student.own_reason)));
     for (const ShownResult& one : shown) {
         if (one.earned >= one.points) continue;
         const Message line = Message("{}: {} of {}.", one.about, points_number(one.earned), points_number(one.points));
@@ -218,17 +231,14 @@ class Outbox {
         result_.notes = sheet_->unrecognized();
         for (MarkedStudent& student : students_)
             if (moodle) student.moodle.clear();
-        std::int64_t unknown = 0;
-        for (const PlatformSheet::Person& person : sheet_->people()) {
-            const std::ptrdiff_t found = student_of(person, sheet_->platform(), students_);
-            // Each student has one row: a second one that fits, by the name alone, is another person's.
-            if (found < 0 || !rows_.emplace(static_cast<std::size_t>(found), person).second) {
-                ++unknown;
-                continue;
-            }
-            MarkedStudent& student = students_[static_cast<std::size_t>(found)];
-            (moodle ? student.moodle : student.canvas) = person.number;
-        }
+        std::vector<SoughtPerson> sought;
+        for (const MarkedStudent& student : students_)
+            sought.push_back(
+                {student.id, student.mail, student.name, moodle ? student.number_in_name : student.canvas});
+        rows_ = rows_of(*sheet_, sought);
+        for (const auto& [place, person] : rows_)
+            (moodle ? students_[place].moodle : students_[place].canvas) = person.number;
+        const auto unknown = std::ssize(sheet_->people()) - std::ssize(rows_);
         note_other_maximum();
         if (unknown > 0)
             result_.notes.push_back(plural(unknown, "{} row of {} matches no submission and was not changed",
@@ -240,17 +250,14 @@ class Outbox {
                                                      students_[i].shown(), request_.worksheet->string()));
     }
 
-    /// The sheet gets points, whatever its maximum is.
     void note_other_maximum() {
         const std::optional<double> maximum = sheet_->maximum();
         for (const MarkedStudent& student : students_) {
             const std::optional<double> possible = number_in_cell(student.possible);
             if (!maximum || !possible || !has_marks(student) || *possible == *maximum) continue;
             result_.notes.push_back(
-                Message("the maximum grade in {} is {}, but {} points are possible. dynlab enters points and does not "
-                        "scale them; set the maximum grade on the platform to {}",
-                        request_.worksheet->string(), points_number(*maximum), points_number(*possible),
-                        points_number(*possible)));
+                Message("the marks are scaled from {} points to the maximum grade of {}, which is {}",
+                        points_number(*possible), request_.worksheet->string(), points_number(*maximum)));
             return;
         }
     }
@@ -270,7 +277,9 @@ class Outbox {
     std::string filled_sheet() {
         for (const auto& [index, person] : rows_) {
             const MarkedStudent& student = students_[index];
-            if (has_marks(student)) sheet_->set_grade(person, student.points);
+            const std::optional<double> points = number_in_cell(student.points),
+                                        possible = number_in_cell(student.possible);
+            if (points) sheet_->set_grade(person, points_in_sheet(*sheet_, *points, possible.value_or(0)));
             if (const std::string comment = comments_on(request_.marks, student); !comment.empty())
                 sheet_->set_comment(person, comment);
         }
@@ -378,7 +387,7 @@ class Outbox {
     std::vector<bool> is_new_;  ///< by student
     TextTable mail_;
     std::optional<PlatformSheet> sheet_;
-    std::map<std::size_t, PlatformSheet::Person> rows_;  ///< of the sheet, by student
+    std::map<std::size_t, PlatformSheet::Person> rows_;  ///< of the sheet, by place of the student
     GradeExport result_;
 };
 

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <functional>
+#include <set>
 
 #include "base/reader.h"
+#include "course/grading/feedback.h"
 #include "course/intake/owners.h"
 #include "data_io/tables/number_cell.h"
 #include "data_io/text_table.h"
@@ -240,20 +242,34 @@ std::string PlatformSheet::text() const {
     return text;
 }
 
-std::map<std::string, std::string> numbers_in(const PlatformSheet& sheet, const std::vector<Student>& students) {
-    std::map<std::string, std::string> numbers;
-    for (const PlatformSheet::Person& person : sheet.people()) {
-        std::vector<std::string> certain, named;
-        for (const Student& student : students) {
-            const bool same_mail =
-                !person.mail.empty() && in_small_letters(student.mail) == in_small_letters(person.mail);
-            if (student.id == person.id || same_mail) certain.push_back(student.id);
-            if (same_person(student.name, person.name)) named.push_back(student.id);
-        }
-        const std::vector<std::string>& found = certain.empty() ? named : certain;
-        if (found.size() == 1) numbers[found.front()] = person.number;
-    }
-    return numbers;
+std::map<std::size_t, PlatformSheet::Person> rows_of(const PlatformSheet& sheet,
+                                                     const std::vector<SoughtPerson>& sought) {
+    const std::vector<PlatformSheet::Person>& people = sheet.people();
+    std::map<std::size_t, PlatformSheet::Person> rows;
+    std::set<std::size_t> taken;
+    const auto match = [&](const auto& fits) {
+        std::map<std::size_t, std::vector<std::size_t>> students, found;  // by row; rows by student
+        for (std::size_t row = 0; row < people.size(); ++row)
+            for (std::size_t i = 0; i < sought.size() && !taken.contains(row); ++i)
+                if (fits(people[row], sought[i])) students[row].push_back(i);
+        for (const auto& [row, fitting] : students)
+            if (fitting.size() == 1 && !rows.contains(fitting.front())) found[fitting.front()].push_back(row);
+        for (const auto& [student, fitting] : found)
+            if (fitting.size() == 1) rows[student] = people[fitting.front()], taken.insert(fitting.front());
+    };
+    const auto same = [](const std::string& a, const std::string& b) { return !a.empty() && a == b; };
+    match([&](const PlatformSheet::Person& row, const SoughtPerson& one) { return same(row.id, one.id); });
+    match([&](const PlatformSheet::Person& row, const SoughtPerson& one) {
+        return same(in_small_letters(row.mail), in_small_letters(one.mail));
+    });
+    match([&](const PlatformSheet::Person& row, const SoughtPerson& one) { return same(row.number, one.number); });
+    match([](const PlatformSheet::Person& row, const SoughtPerson& one) { return same_person(one.name, row.name); });
+    return rows;
+}
+
+std::string points_in_sheet(const PlatformSheet& sheet, double points, double possible) {
+    const double maximum = sheet.maximum().value_or(possible);
+    return points_text(possible > 0 ? points * maximum / possible : points);
 }
 
 }  // namespace dynlab::inline course

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -66,7 +67,17 @@ class PlatformSheet {
     std::vector<Message> unrecognized_;
 };
 
-/// The participant numbers of students, by student id. A row matches by id, by mail, or by a name that is unique.
-std::map<std::string, std::string> numbers_in(const PlatformSheet& sheet, const std::vector<Student>& students);
+/// A student whose row in the table is wanted; what is not known is empty.
+struct SoughtPerson {
+    std::string id, mail, name;
+    std::string number;  ///< of this platform
+};
+/// The rows of students, by place in `sought`. The id decides, else the mail, the number, or the name, where they
+/// belong to exactly one row and one student.
+std::map<std::size_t, PlatformSheet::Person> rows_of(const PlatformSheet& sheet,
+                                                     const std::vector<SoughtPerson>& sought);
+
+/// Points as the table has them: of `possible` points, scaled to the maximum of the table.
+std::string points_in_sheet(const PlatformSheet& sheet, double points, double possible);
 
 }  // namespace dynlab::inline course

@@ -165,8 +165,15 @@ std::map<std::string, std::string> participants_for(Course& course, const Assign
     std::map<std::string, std::string> all = participants_of(course, assignment.id), reported;
     if (table.empty()) return all;
     try {
-        if (const PlatformSheet sheet(table, ""); sheet.platform() == PlatformSheet::Platform::kMoodle)
-            reported = numbers_in(sheet, students_of(course));
+        if (const PlatformSheet sheet(table, ""); sheet.platform() == PlatformSheet::Platform::kMoodle) {
+            const std::vector<Student> students = students_of(course);
+            std::vector<SoughtPerson> sought;
+            for (const Student& student : students) {
+                const auto number = all.find(student.id);
+                sought.push_back({student.id, student.mail, student.name, number == all.end() ? "" : number->second});
+            }
+            for (const auto& [place, person] : rows_of(sheet, sought)) reported[students[place].id] = person.number;
+        }
     } catch (const EnvironmentError&) {  // a table of something else
     }
     reported.merge(all);

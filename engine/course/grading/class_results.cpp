@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <tuple>
 
 #include "base/reader.h"
 #include "course/grading/class_statistics.h"
@@ -44,27 +43,40 @@ std::vector<std::string> check_ids(const ClassResults& results) {
     return ids;
 }
 
-std::vector<std::string> row_of(const std::string& id, const std::string& name, const Entry* entry,
-                                const std::vector<std::string>& ids) {
-    std::vector<std::string> row = {id, name};
-    if (!entry) {
-        row.insert(row.end(), {"", kNothingSubmitted});
-        row.resize(8 + ids.size());
-        return row;
+/// A row of the gradebook.
+struct MarkRow {
+    std::string id, name;
+    const Entry* entry = nullptr;  ///< the submission that counts; null where nothing was submitted
+    CountedMark mark;
+};
+
+/// One submission where students are not known.
+CountedMark mark_of(const Entry& entry) {
+    CountedMark mark;
+    if (!entry.grade) return mark;
+    const Grade& grade = *entry.grade;
+    if (grade.whole()) mark.points = grade.earned();
+    mark.possible = grade.possible(), mark.penalty = grade.penalty;
+    for (const CheckGrade& check : grade.checks)
+        mark.checks.emplace_back(check.id, check.graded ? std::optional(check.earned) : std::nullopt);
+    return mark;
+}
+
+std::vector<MarkRow> mark_rows(const ClassResults& results) {
+    std::vector<MarkRow> rows;
+    if (!results.work->roster)
+        for (const Entry& entry : results.entries)
+            rows.push_back({entry.item->submission.lms_id, entry.item->submission.person, &entry, mark_of(entry)});
+    for (std::size_t i = 0; i < results.marks.size() && results.work->roster; ++i) {
+        const Student& student = results.work->students[i];
+        const CountedMark& mark = results.marks[i];
+        rows.push_back({student.id, student.name, mark.item ? &results.entries[*mark.item] : nullptr, mark});
     }
-    row.insert(row.end(), {entry->item->submission.name, state_of(*entry)});
-    const Grade empty;
-    const Grade& grade = entry->grade ? *entry->grade : empty;
-    const bool whole = entry->grade && grade.whole();
-    row.push_back(whole ? points_text(grade.earned()) : "");
-    row.push_back(entry->grade ? points_text(grade.possible()) : "");
-    row.push_back(points_text(grade.penalty));
-    row.push_back(points_text(grade.late_hours));
-    for (const std::string& check_id : ids) {
-        const auto found = std::ranges::find(grade.checks, check_id, &CheckGrade::id);
-        row.push_back(found == grade.checks.end() || !found->graded ? "" : points_text(found->earned));
-    }
-    return row;
+    return rows;
+}
+
+std::string points_cell(const std::optional<double>& points) {
+    return points ? points_text(*points) : "";
 }
 
 /// For sentences: who it is where a platform says so, which is shorter than the platform's own names.
@@ -73,34 +85,10 @@ std::string shown_name(const Submission& submission) {
     return fmt::format("{} ({})", submission.person, submission.lms_id);
 }
 
-bool has_marks(const Entry& entry) {
-    return entry.grade && !entry.grade->without_marks();
-}
-
-/// Orders the submissions of one owner: by marks, then by the marks of the checks alone where the instructor marked the
-/// whole, then by time. A penalty that waits for confirmation is taken off.
-auto merit(const Entry& entry) {
-    if (!has_marks(entry)) return std::tuple(-1.0, -1.0, entry.item->received);
-    Grade by_checks = *entry.grade;
-    by_checks.whole_mark.reset();
-    const double left = by_checks.earned() * (1 - entry.item->lateness.waiting_percent / 100);
-    return std::tuple(entry.grade->whole_mark ? entry.grade->earned() : left, left, entry.item->received);
-}
-
-/// Of two submissions of one owner, the one that counts. One without marks never counts before one with marks.
-const Entry* counting(const Entry* a, const Entry* b, bool newest_counts) {
-    if (a == nullptr) return b;
-    if (newest_counts && has_marks(*a) && has_marks(*b)) return b->item->received > a->item->received ? b : a;
-    return merit(*b) > merit(*a) ? b : a;
-}
-
-/// For each student.
-std::vector<const Entry*> work_that_counts(const ClassResults& results) {
-    std::vector<const Entry*> work(results.work->students.size(), nullptr);
-    for (const Entry& entry : results.entries)
-        for (const std::size_t owner : entry.item->students)
-            work[owner] = counting(work[owner], &entry, results.work->newest_counts);
-    return work;
+/// The entry that counts for a student.
+const Entry* counting_for(const ClassResults& results, std::size_t student) {
+    const std::optional<std::size_t> item = results.marks[student].item;
+    return item ? &results.entries[*item] : nullptr;
 }
 
 /// A sentence for each owner with several submissions.
@@ -120,9 +108,11 @@ std::vector<Message> several_of_one(const ClassResults& results) {
         const Entry* counts = nullptr;
         std::vector<std::string> names;
         for (const Entry* entry : entries) {
-            counts = counting(counts, entry, results.work->newest_counts);
             names.push_back(fmt::format("\"{}\"", shown_name(entry->item->submission)));
+            for (const std::size_t student : entry->item->students)
+                if (counting_for(results, student) == entry) counts = entry;
         }
+        if (counts == nullptr) continue;
         const std::string counting_name = shown_name(counts->item->submission);
         sentences.push_back(
             results.work->newest_counts
@@ -140,19 +130,27 @@ TextTable gradebook_of(const ClassResults& results) {
     table.names = {"id", "name", "submission", "state", "points", "possible", "penalty", "late_hours"};
     table.names.insert(table.names.end(), ids.begin(), ids.end());
     if (results.work->deadlines) table.names.push_back("lateness");
-    const auto row_for = [&](const std::string& id, const std::string& name, const Entry* entry) {
-        std::vector<std::string> row = row_of(id, name, entry, ids);
-        if (results.work->deadlines) row.push_back(entry && entry->grade ? message_text(entry->grade->lateness) : "");
+    const std::vector<MarkRow> rows = mark_rows(results);
+    const bool own = std::ranges::any_of(rows, [](const MarkRow& row) { return !row.mark.own_reason.empty(); });
+    if (own) table.names.push_back("own mark");
+    for (const auto& [id, name, entry, mark] : rows) {
+        const Grade* const grade = entry && entry->grade ? &*entry->grade : nullptr;
+        std::vector<std::string> row = {id,
+                                        name,
+                                        entry ? entry->item->submission.name : "",
+                                        entry ? state_of(*entry) : kNothingSubmitted,
+                                        points_cell(mark.points),
+                                        points_cell(mark.possible)};
+        row.push_back(entry ? points_text(mark.penalty) : "");
+        row.push_back(entry ? points_text(grade ? grade->late_hours : 0) : "");
+        for (const std::string& check_id : ids) {
+            const auto found = std::ranges::find(mark.checks, check_id, [](const auto& check) { return check.first; });
+            row.push_back(found == mark.checks.end() ? "" : points_cell(found->second));
+        }
+        if (results.work->deadlines) row.push_back(grade ? message_text(grade->lateness) : "");
+        if (own) row.push_back(mark.own_reason);
         table.rows.push_back(std::move(row));
-    };
-    if (!results.work->roster) {
-        for (const Entry& entry : results.entries)
-            row_for(entry.item->submission.lms_id, entry.item->submission.person, &entry);
-        return table;
     }
-    const auto& students = results.work->students;
-    const std::vector<const Entry*> work = work_that_counts(results);
-    for (std::size_t i = 0; i < students.size(); ++i) row_for(students[i].id, students[i].name, work[i]);
     return table;
 }
 
@@ -198,22 +196,18 @@ RecordedTable success_of(const std::vector<CheckStatistics>& checks) {
 RecordedTable marks_of(const ClassResults& results) {
     RecordedTable table{{"name", "group", "state", "points", "penalty"}, {}};
     constexpr std::size_t kMaxNameCharacters = 42;  // longer ones without a space would run over the margin
-    const auto add = [&](const std::string& name, const std::string& group, const Entry* entry) {
-        const Grade* grade = entry && entry->grade ? &*entry->grade : nullptr;
-        table.rows.push_back({printable(name, kMaxNameCharacters), printable(group, kMaxNameCharacters),
-                              entry ? state_of(*entry) : kNothingSubmitted,
-                              grade && grade->whole() ? points_text(grade->earned()) : "–",
-                              grade && grade->penalty > 0 ? points_text(grade->penalty) : "–"});
-    };
-    if (!results.work->roster) {
-        for (const Entry& entry : results.entries) add(shown_name(entry.item->submission), "–", &entry);
-        return table;
+    std::map<std::string, std::string> groups;
+    for (const Student& student : results.work->students) groups[student.id] = student.group;
+    for (const auto& [id, name, entry, mark] : mark_rows(results)) {
+        const std::string shown = !results.work->roster ? shown_name(entry->item->submission)
+                                  : name.empty()        ? id
+                                                        : name,
+                          group = results.work->roster ? groups[id] : "";
+        table.rows.push_back(
+            {printable(shown, kMaxNameCharacters), group.empty() ? "–" : printable(group, kMaxNameCharacters),
+             entry ? state_of(*entry) : kNothingSubmitted, mark.points ? points_text(*mark.points) : "–",
+             mark.penalty > 0 ? points_text(mark.penalty) : "–"});
     }
-    const auto& students = results.work->students;
-    const std::vector<const Entry*> work = work_that_counts(results);
-    for (std::size_t i = 0; i < students.size(); ++i)
-        add(students[i].name.empty() ? students[i].id : students[i].name,
-            students[i].group.empty() ? "–" : students[i].group, work[i]);
     return table;
 }
 
@@ -340,12 +334,14 @@ Attention what_needs_attention(const ClassResults& results) {
 std::vector<std::string> counted_instead(const ClassResults& results) {
     std::vector<std::string> names(results.entries.size());
     if (!results.work->roster) return names;
-    const std::vector<const Entry*> work = work_that_counts(results);
     for (std::size_t i = 0; i < names.size(); ++i) {
         const Entry& entry = results.entries[i];
         const auto& owners = entry.item->students;
-        if (std::ranges::any_of(owners, [&](std::size_t owner) { return work[owner] == &entry; })) continue;
-        if (!owners.empty()) names[i] = shown_name(work[owners.front()]->item->submission);
+        if (std::ranges::any_of(owners, [&](std::size_t owner) { return counting_for(results, owner) == &entry; }))
+            continue;
+        for (const std::size_t owner : owners)
+            if (const Entry* const counts = counting_for(results, owner))
+                names[i] = shown_name(counts->item->submission);
     }
     return names;
 }

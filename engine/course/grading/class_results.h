@@ -16,7 +16,8 @@ struct ClassResults {
         const WorkItem* item = nullptr;
         std::optional<Grade> grade;  ///< nothing: not graded yet
     };
-    std::vector<Entry> entries;
+    std::vector<Entry> entries;      ///< as work->items
+    std::vector<CountedMark> marks;  ///< as work->students
     const ClassWork* work = nullptr;
     std::filesystem::path out;
     const GradingSetup* setup = nullptr;
@@ -32,7 +33,7 @@ struct Attention {
 };
 Attention what_needs_attention(const ClassResults& results);
 
-/// For each entry, the name of the entry that counts instead, for each of its owners; empty if the entry itself counts.
+/// For each entry, the name of the entry that counts instead for its owners; empty if the entry itself counts.
 std::vector<std::string> counted_instead(const ClassResults& results);
 
 /// Writes gradebook.csv (a row for each student of the roster, or each submission if there is no roster) and the

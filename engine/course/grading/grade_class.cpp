@@ -47,8 +47,9 @@ class ClassGrader {
     /// So far.
     const GradingOutcome& outcome() const { return outcome_; }
 
-    GradingOutcome conclude() {
+    GradingOutcome conclude(const std::function<std::vector<CountedMark>()>& count) {
         take_earlier_results();
+        marks_ = count();
         for (const Message& sentence : pipeline_.manual().complaints()) outcome_.complaints.push_back(sentence);
         say_which_counts();
         // Threads end in any order.
@@ -201,6 +202,7 @@ class ClassGrader {
         results.setup = &options_.setup;
         results.pdf = options_.pdf, results.documents = &pipeline_.documents();
         for (std::size_t i = 0; i < graded_.size(); ++i) results.entries.push_back({&work_.items[i], graded_[i]});
+        results.marks = marks_;
         results.complaints = outcome_.complaints;
         return results;
     }
@@ -210,6 +212,7 @@ class ClassGrader {
     GradingOutcome outcome_;
     GradingPipeline pipeline_;
     std::vector<std::optional<Grade>> graded_;  ///< as work_.items
+    std::vector<CountedMark> marks_;            ///< as work_.students
     ProgressBar* bar_ = nullptr;
     std::atomic<std::size_t> next_{0};
     std::atomic<bool> stopped_{false};
@@ -238,10 +241,11 @@ EvaluatedRules::EvaluatedRules(const GradingOptions& options) : rules(isolated(o
     note = rules.note_on_time();
 }
 
-GradingOutcome grade_class(const ClassWork& work, const EvaluatedRules& evaluated, const GradingOptions& options) {
+GradingOutcome grade_class(const ClassWork& work, const EvaluatedRules& evaluated, const GradingOptions& options,
+                           const std::function<std::vector<CountedMark>()>& count) {
     ClassGrader grader(work, evaluated, options);
     grader.grade_chosen();
-    return grader.conclude();
+    return grader.conclude(count);
 }
 
 GradingOutcome grade_part_of_class(const ClassWork& work, const WorkPart& part, const EvaluatedRules& evaluated,

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -46,6 +47,8 @@ MissingParts ungraded_parts(const ClassWork& work, int parts, const EvaluatedRul
 /// submission is graded in its own sandbox, by `setup.jobs` threads. A result whose inputs are unchanged is kept, so
 /// that an interrupted run resumes where it stopped. Marks depend on neither the order nor the threads. The caller
 /// holds the lock of the folder. Throws Interrupted after Ctrl-C.
-GradingOutcome grade_class(const ClassWork& work, const EvaluatedRules& evaluated, const GradingOptions& options);
+/// `count`: called once, when the results of all submissions are written, for the marks of `work.students`.
+GradingOutcome grade_class(const ClassWork& work, const EvaluatedRules& evaluated, const GradingOptions& options,
+                           const std::function<std::vector<CountedMark>()>& count);
 
 }  // namespace dynlab::inline course

@@ -213,12 +213,16 @@ ManualMarks::ManualMarks(const fs::path& results, const ClassWork& work, const s
             complaints_.push_back(Message("{}, line {}: {}", kMarksFile, row.line, what));
         };
         const MarkedItems::Found found = items.find(row.who);
+        const bool accepted = std::ranges::all_of(found.items, [&](const WorkItem* item) {
+            const auto given = item->given.find(row.check);
+            return given != item->given.end() && points_text(given->second) == points_text(*row.points);
+        });
         const auto check = max_points.find(row.check);
         if (found.items.empty())
             complain(found.error_reason);
         else if (check == max_points.end())
             complain(Message("unknown check \"{}\" (for \"{}\"); * means the complete submission", row.check, row.who));
-        else if (*row.points > check->second && !above_maximum)
+        else if (*row.points > check->second && !above_maximum && !accepted)
             complain(
                 Message("\"{}\" gets {} points for the check \"{}\", but the maximum is {}; correct the points, or "
                         "give --force",

@@ -54,7 +54,7 @@ class MarksFile {
 /// What these rows say of the submissions of a class. They replace what the checks gave and survive every regrade.
 class ManualMarks {
   public:
-    /// A mark above the points of its check is taken only with `above_maximum`.
+    /// A mark above the points of its check is taken only with `above_maximum`, or if the course has it already.
     ManualMarks(const std::filesystem::path& results, const ClassWork& work,
                 const std::vector<CheckDescription>& checks, bool above_maximum);
 

@@ -1,7 +1,9 @@
 #pragma once
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "course/intake/roster.h"
@@ -19,19 +21,30 @@ struct Lateness {
 
 /// A submission to grade, with what a course knows of it.
 struct WorkItem {
-    Submission submission;              ///< its name, which no other in the class has, and its files
-    Message unreadable;                 ///< why it cannot be graded, a sentence; as a rule empty
-    std::string content;                ///< SHA-256 of all that was submitted; empty where that is not known
-    std::int64_t version = 0;           ///< its id in the store of the course; 0: it could not be kept
-    std::int64_t group_id = 0;          ///< of that version
-    std::vector<std::size_t> students;  ///< whose it is: places in ClassWork::students
-    std::string group;                  ///< empty for a student without one
-    Message unmatched;                  ///< why it belongs to no student; empty where it does
-    std::string addressee;              ///< whom the feedback is for; the submission's name where empty
-    std::string language;               ///< of the feedback; that of the work where empty
-    std::optional<std::uint32_t> seed;  ///< of the group's own data sets; nothing for the data of all
-    std::int64_t received = 0;          ///< seconds since 1970; needed where the newest counts
+    Submission submission;                ///< its name, which no other in the class has, and its files
+    Message unreadable;                   ///< why it cannot be graded, a sentence; as a rule empty
+    std::string content;                  ///< SHA-256 of all that was submitted; empty where that is not known
+    std::int64_t version = 0;             ///< its id in the store of the course; 0: it could not be kept
+    std::int64_t group_id = 0;            ///< of that version
+    std::vector<std::size_t> students;    ///< whose it is: places in ClassWork::students
+    std::string group;                    ///< empty for a student without one
+    Message unmatched;                    ///< why it belongs to no student; empty where it does
+    std::string addressee;                ///< whom the feedback is for; the submission's name where empty
+    std::string language;                 ///< of the feedback; that of the work where empty
+    std::optional<std::uint32_t> seed;    ///< of the group's own data sets; nothing for the data of all
+    std::map<std::string, double> given;  ///< points that the instructor gave in the course, by check
+    std::int64_t received = 0;            ///< seconds since 1970; needed where the newest counts
     Lateness lateness;
+};
+
+/// What a student has for the work of a class, as the course counts it.
+struct CountedMark {
+    std::optional<std::size_t> item;  ///< place of the submission that counts in ClassWork::items
+    std::optional<double> points;     ///< penalty taken off; nothing where something is not graded yet
+    std::optional<double> possible;   ///< nothing before anything is graded
+    double penalty = 0;
+    std::vector<std::pair<std::string, std::optional<double>>> checks;  ///< id, and points where it is graded
+    std::string own_reason;                                             ///< of marks of this student alone
 };
 
 /// All work of a class on one assignment: what the grading pipeline is given (office/course_work.h).

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/reader.h"
+#include "course/office/course_totals.h"
 #include "course/review/review_marks.h"
 #include "course/review/score_sheet.h"
 #include "course/store/course_schema.h"
@@ -59,25 +60,22 @@ std::map<std::int64_t, std::string> remarks_by_reviewer(Course& course, const As
 }
 
 /// A row a student, with the mark of the group's work that counts, or the student's own.
-std::string lab_csv(Course& course, const Assignment& a) {
+std::string lab_csv(Course& course, const Assignment& a, Instant now) {
     TextTable table;
     table.names = {"id",   "name",   "mail",     "moodle",  "canvas",  "group", "submission",
                    "late", "points", "possible", "penalty", "percent", "reason"};
     auto versions = newest_versions(course, a);
     const auto authors = author_groups(course, a);
-    std::set<std::string> with_own;  // students with individual marks
-    for (const GivenMark& mark : marks_in_force(course, a)) with_own.insert(mark.student);
-    const std::vector<LabMark> of_groups = lab_marks(course, a);
+    auto marks = marks_of_students(course, a, now);
     for (const Student& s : students_of(course)) {
         std::vector<std::string> row = {s.id, s.name, s.mail, s.moodle, s.canvas, s.group};
         if (const auto author = authors.find(s.id); author != authors.end()) {
             const auto came = arrival(course, versions[author->second]["first"], a.document());
             row.insert(row.end(), {came.first, came.second});
-            const std::vector<LabMark> marks = with_own.contains(s.id) ? lab_marks(course, a, s.id) : of_groups;
-            if (const auto mark = std::ranges::find(marks, author->second, &LabMark::group); mark != marks.end())
-                row.insert(row.end(),
-                           {percent_text(mark->earned), fmt::format("{:.4g}", mark->possible),
-                            fmt::format("{:.4g}", mark->penalty), percent_text(mark->percent()), mark->reason});
+            if (const auto& mark = marks[s.id].lab)
+                row.insert(row.end(), {percent_text(mark->earned), fmt::format("{:.4g}", mark->possible),
+                                       fmt::format("{:.4g}", mark->penalty), percent_text(marks[s.id].percent),
+                                       mark->reason.empty() ? mark->own_reasons : mark->reason});
         }
         row.resize(table.names.size());
         table.rows.push_back(std::move(row));
@@ -216,7 +214,7 @@ CourseExport read_export(const fs::path& file) {
 }  // namespace
 
 std::string marks_csv(Course& course, const Assignment& a, Instant now) {
-    if (a.is_lab()) return lab_csv(course, a);
+    if (a.is_lab()) return lab_csv(course, a, now);
     TextTable table;
     table.names = {"id",
                    "name",

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "course/grading/feedback.h"
+#include "course/office/course_totals.h"
 #include "course/store/marks.h"
 #include "numerics/error.h"
 #include "platform/atomic_file.h"
@@ -156,8 +157,43 @@ void join_rows(Course& course, const Assignment& assignment, const CourseWork& w
 
 }  // namespace
 
+std::vector<CountedMark> counted_marks(Course& course, const Assignment& assignment, const ClassWork& work) {
+    std::set<std::int64_t> versions;
+    for (const WorkItem& item : work.items) versions.insert(item.version);
+    auto marks = marks_of_students(course, assignment, CourseClock::now(), &versions);
+    std::vector<CountedMark> all(work.students.size());
+    const auto& items = work.items;
+    for (std::size_t place = 0; place < items.size(); ++place)  // of work without marks the newest
+        for (const std::size_t student : items[place].students)
+            if (auto& item = all[student].item; !item || items[place].received >= items[*item].received) item = place;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const std::optional<LabMark>& lab = marks[work.students[i].id].lab;
+        if (!lab) continue;
+        if (lab->version != 0)
+            all[i].item =
+                static_cast<std::size_t>(std::ranges::find(items, lab->version, &WorkItem::version) - items.begin());
+        all[i].points = lab->earned, all[i].penalty = lab->penalty, all[i].own_reason = lab->own_reasons;
+        if (lab->version == 0 && lab->own_reasons.empty()) all[i].own_reason = lab->reason;
+        if (lab->possible > 0) all[i].possible = lab->possible;
+        for (const CheckPoints& check : lab->checks)
+            all[i].checks.emplace_back(check.id, check.graded ? std::optional(check.earned) : std::nullopt);
+    }
+    return all;
+}
+
 fs::path results_folder(const Course& course, const Assignment& assignment) {
     return course.folder() / "marks" / assignment.name;
+}
+
+std::optional<ResultsCourse> course_of_results(const fs::path& results) {
+    if (fs::exists(results / "course" / "course.db")) {
+        Course course(results / "course");
+        const std::vector<Assignment> all = assignments_of(course);
+        return ResultsCourse{results / "course", all.empty() ? "" : all.front().name, true};
+    }
+    const fs::path folder = fs::weakly_canonical(results), course = folder.parent_path().parent_path();
+    if (folder.parent_path().filename() != "marks" || !fs::exists(course / "course.db")) return {};
+    return ResultsCourse{course, folder.filename(), false};
 }
 
 std::string secret_in(const std::string& file) {
@@ -219,9 +255,10 @@ GradingOutcome grade_assignment(Course& course, const Assignment& assignment, co
     work.choose(course, request.only);
     const EvaluatedRules evaluated(options);
     join_marks(course, assignment, work, evaluated, options, false);
-    GradingOutcome outcome = grade_class(work.work(), evaluated, options);
-    save_results(course, assignment, work, options.out);
-    return outcome;
+    return grade_class(work.work(), evaluated, options, [&] {
+        save_results(course, assignment, work, options.out);
+        return counted_marks(course, assignment, work.work());
+    });
 }
 
 }  // namespace dynlab::inline course

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,15 @@ std::filesystem::path results_folder(const Course& course, const Assignment& ass
 /// InvalidArgument for an assignment that is no lab; EnvironmentError as grade_class does.
 GradingOutcome grade_assignment(Course& course, const Assignment& assignment, const CourseGradingRequest& request);
 
+/// The course and the lab that a folder of results belongs to; nothing for other folders. dynlab grade keeps the course
+/// in the folder.
+struct ResultsCourse {
+    std::filesystem::path folder;
+    std::string assignment;
+    bool own = false;  ///< the course is in the folder of results
+};
+std::optional<ResultsCourse> course_of_results(const std::filesystem::path& results);
+
 // Its steps, which folder_grading.h takes too.
 
 /// The secret from which hidden data sets are generated. Throws EnvironmentError if the file is missing or empty.
@@ -35,5 +45,7 @@ void join_marks(Course& course, const Assignment& assignment, const CourseWork& 
 /// Enters what the checks gave.
 void save_results(Course& course, const Assignment& assignment, const CourseWork& work,
                   const std::filesystem::path& out);
+/// What each student of the work has, of these submissions: the one that counts, with the marks of the course.
+std::vector<CountedMark> counted_marks(Course& course, const Assignment& assignment, const ClassWork& work);
 
 }  // namespace dynlab::inline course

@@ -19,44 +19,52 @@
 namespace dynlab::inline course {
 namespace {
 
-/// The marks of one assignment, if it has any.
-class AssignmentMarks {
+/// Percent of a report or a talk. A report's has that of its reviews in it.
+std::optional<double> percent_of(const Assignment& a, const Marks& marks, std::int64_t group,
+                                 const std::string& student) {
+    const auto mark = std::ranges::find(marks.groups, group, &GroupMark::group);
+    GroupMark of_group;
+    of_group.group = group;
+    if (mark != marks.groups.end()) of_group = *mark;
+    const std::optional<double> work = marks.work_of(of_group, student).percent,
+                                reviews = marks.reviews_of(of_group, student).percent;
+    if (!work || !reviews || !a.is_report()) return work;
+    const double share = a.reviews_weight / 100;
+    return (1 - share) * *work + share * *reviews;
+}
+
+/// Of students, for a lab: the mark of the group, or the student's own.
+class LabMarks {
   public:
-    AssignmentMarks(Course& course, const Assignment& assignment, Instant now) : course_(course), a_(assignment) {
-        if (!a_.is_lab()) {
-            marks_ = course_marks(course, assignment, now);
-            return;
-        }
-        labs_ = lab_marks(course, assignment);
+    LabMarks(Course& course, const Assignment& assignment, const std::set<std::int64_t>* versions)
+        : course_(course),
+          a_(assignment),
+          versions_(versions),
+          of_groups_(lab_marks(course, assignment, "", versions)) {
         for (const GivenMark& mark : marks_in_force(course, assignment))
             if (!mark.student.empty()) with_own_.insert(mark.student);
+        for (const CheckPoints& check : newest_checks(course, assignment)) possible_ += check.points;
     }
-
-    std::optional<double> percent(std::int64_t group, const std::string& student) const {
-        if (a_.is_lab())
-            return lab_percent(with_own_.contains(student) ? lab_marks(course_, a_, student) : labs_, group);
-        const auto mark = std::ranges::find(marks_.groups, group, &GroupMark::group);
-        GroupMark of_group;
-        of_group.group = group;
-        if (mark != marks_.groups.end()) of_group = *mark;
-        const std::optional<double> work = marks_.work_of(of_group, student).percent,
-                                    reviews = marks_.reviews_of(of_group, student).percent;
-        if (!work || !reviews || !a_.is_report()) return work;
-        const double share = a_.reviews_weight / 100;
-        return (1 - share) * *work + share * *reviews;
+    std::optional<LabMark> of(std::int64_t group, const std::string& student) const {
+        const std::vector<LabMark> own =
+            with_own_.contains(student) ? lab_marks(course_, a_, student, versions_) : std::vector<LabMark>();
+        const std::vector<LabMark>& marks = with_own_.contains(student) ? own : of_groups_;
+        const auto mark = std::ranges::find(marks, group, &LabMark::group);
+        return mark == marks.end() ? std::nullopt : std::optional(*mark);
+    }
+    LabMark missing(std::int64_t group) const {
+        LabMark mark;
+        mark.group = group, mark.earned = 0, mark.possible = possible_;
+        return mark;
     }
 
   private:
-    static std::optional<double> lab_percent(const std::vector<LabMark>& labs, std::int64_t group) {
-        const auto mark = std::ranges::find(labs, group, &LabMark::group);
-        return mark == labs.end() ? std::nullopt : mark->percent();
-    }
-
     Course& course_;
     const Assignment& a_;
-    std::set<std::string> with_own_;  ///< students with individual marks, in a lab
-    std::vector<LabMark> labs_;
-    Marks marks_;
+    const std::set<std::int64_t>* versions_;
+    std::set<std::string> with_own_;  ///< students with individual marks
+    std::vector<LabMark> of_groups_;
+    double possible_ = 0;
 };
 
 constexpr char kExported[] = "exported totals";
@@ -67,16 +75,26 @@ std::string mark_text(const std::optional<double>& percent) {
 
 }  // namespace
 
-std::map<std::string, AssignmentMark> marks_of_students(Course& course, const Assignment& a, Instant now) {
-    const AssignmentMarks known(course, a, now);
-    auto versions = newest_versions(course, a);
+std::map<std::string, AssignmentMark> marks_of_students(Course& course, const Assignment& a, Instant now,
+                                                        const std::set<std::int64_t>* versions) {
+    std::optional<LabMarks> labs;
+    Marks others;
+    if (a.is_lab())
+        labs.emplace(course, a, versions);
+    else
+        others = course_marks(course, a, now);
+    auto submitted_by = newest_versions(course, a);
     std::map<std::string, AssignmentMark> marks;
     for (const auto& [student, group] : author_groups(course, a)) {
         AssignmentMark& mark = marks[student];
-        mark.percent = known.percent(group, student);
-        const bool submitted = !versions[group]["first"].empty();
-        if (!submitted && now > due_for(course, a, group, "first") + a.grace && !mark.percent.has_value())
+        if (labs) mark.lab = labs->of(group, student);
+        if (!labs) mark.percent = percent_of(a, others, group, student);
+        if (mark.lab) mark.percent = mark.lab->percent();
+        const bool submitted = !submitted_by[group]["first"].empty();
+        if (!submitted && now > due_for(course, a, group, "first") + a.grace && !mark.percent.has_value()) {
             mark.missing = true, mark.percent = 0;
+            if (labs) mark.lab = labs->missing(group);
+        }
         mark.open = submitted && !mark.percent;
     }
     return marks;

@@ -1,24 +1,29 @@
 #pragma once
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "course/store/assignments.h"
 #include "course/store/groups.h"
+#include "course/store/marks.h"
 
 namespace dynlab::inline course {
 
 /// What a student has for one assignment.
 struct AssignmentMark {
-    std::optional<double> percent;  ///< nothing: not marked yet, or not due
-    bool missing = false;           ///< nothing was submitted, though it was due: 0 percent
-    bool open = false;              ///< submitted and not marked yet
+    std::optional<double> percent;    ///< nothing: not marked yet, or not due
+    bool missing = false;             ///< nothing was submitted, though it was due: 0 percent
+    bool open = false;                ///< submitted and not marked yet
+    std::optional<LabMark> lab = {};  ///< of a lab that was submitted or marked; also where it is missing
 };
 
 /// By student, by id. The work of the group that the student belonged to when it submitted counts; marks of single
 /// students go before those of their groups. A report's percent has that of its reviews in it, by reviews_weight.
-std::map<std::string, AssignmentMark> marks_of_students(Course& course, const Assignment& assignment, Instant now);
+/// `versions`: see lab_marks.
+std::map<std::string, AssignmentMark> marks_of_students(Course& course, const Assignment& assignment, Instant now,
+                                                        const std::set<std::int64_t>* versions = nullptr);
 
 /// The mean of the percent of assignments by their weights; nothing where none counts. `marks` in the order of
 /// `assignments`.

@@ -26,6 +26,7 @@ std::vector<CourseWork::Stored> CourseWork::read(Course& course, const Assignmen
     work_.roster = !work_.students.empty();
     work_.newest_counts = assignment.keep == "newest";
     for (const Group& group : groups_of(course)) groups_.emplace(group.id, group);
+    given_ = marks_in_force(course, assignment);
     std::vector<Stored> versions;
     for (Rows rows = course.database().query(
              "SELECT id, group_id, number, part, hash, name, received_at, first_at, due_at, EXISTS (SELECT 1 FROM "
@@ -69,8 +70,11 @@ CourseWork::CourseWork(Course& course, const Assignment& assignment, const Recei
     conclude_lateness(work_);
 }
 
-void CourseWork::date(WorkItem& item, const Stored& version, const Assignment& assignment) {
+void CourseWork::date(WorkItem& item, const Stored& version, const Assignment& assignment) const {
     item.received = version.received;
+    for (const GivenMark& mark : given_)
+        if (mark.student.empty() && mark.group == version.group && (mark.version == 0 || mark.version == version.id))
+            item.given[mark.item] = *mark.points;
     const Costs& costs = assignment.costs;
     item.lateness = lateness_of({version.due, assignment.grace, costs.late_day, costs.late_max}, version.first);
     if (needs_confirmation(item.lateness) && !version.confirmed) item.lateness = unconfirmed(item.lateness);

@@ -6,6 +6,7 @@
 
 #include "course/grading/work_item.h"
 #include "course/office/receive_class.h"
+#include "course/store/marks.h"
 #include "platform/temporary_folder.h"
 
 namespace dynlab::inline course {
@@ -48,13 +49,14 @@ class CourseWork {
         Message reason;                            ///< why it cannot be read
     };
     std::vector<Stored> read(Course& course, const Assignment& assignment);
-    static void date(WorkItem& item, const Stored& version, const Assignment& assignment);
+    void date(WorkItem& item, const Stored& version, const Assignment& assignment) const;
     void add(Course& course, const Stored& version, const Assignment& assignment);
     void address(WorkItem& item) const;
 
     TemporaryFolder files_;
     ClassWork work_;
     std::map<std::int64_t, Group> groups_;
+    std::vector<GivenMark> given_;
 };
 
 }  // namespace dynlab::inline course

@@ -148,15 +148,6 @@ bool is_graded_folder(const fs::path& out) {
     return fs::exists(out / kCourse / "course.db");
 }
 
-std::vector<Student> stored_roster(const fs::path& out) {
-    if (!is_graded_folder(out)) return {};
-    Course course(out / kCourse);
-    std::vector<Student> students = students_of(course);
-    for (Student& student : students)
-        if (student.group == student.id) student.group.clear();
-    return students;
-}
-
 FolderGrading::FolderGrading(FolderRequest request) : request_(std::move(request)) {
     if (request_.again && !request_.grading.only.empty())
         throw EnvironmentError("--again grades the complete class again; omit --only");
@@ -236,9 +227,14 @@ bool FolderGrading::confirm_late(Course& course) {
 }
 
 GradingOutcome FolderGrading::grade() {
-    GradingOutcome outcome = grade_class(work_->work(), *tried_, options_);
-    with_course(request_, [this](Course& course) { save_results(course, assignment_, *work_, request_.out); });
-    return outcome;
+    return grade_class(work_->work(), *tried_, options_, [this] {
+        std::vector<CountedMark> marks;
+        with_course(request_, [&](Course& course) {
+            save_results(course, assignment_, *work_, request_.out);
+            marks = counted_marks(course, assignment_, work_->work());
+        });
+        return marks;
+    });
 }
 
 }  // namespace dynlab::inline course

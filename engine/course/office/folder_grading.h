@@ -26,9 +26,6 @@ inline constexpr char kNoFile[] = "none";
 
 /// Whether `out` was made by such a command.
 bool is_graded_folder(const std::filesystem::path& out);
-/// The students of the roster that `out` stores, without groups of a single student named by the id; empty if `out` was
-/// not made by such a command.
-std::vector<Student> stored_roster(const std::filesystem::path& out);
 
 class FolderGrading {
   public:

@@ -1,6 +1,7 @@
 #include "course/store/marks.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <limits>
@@ -59,30 +60,42 @@ std::vector<GradedVersion> graded_versions(Course& course, const Assignment& ass
 
 using MarksByItem = std::map<std::string, GivenMark>;
 
-LabMark whole_mark(std::int64_t group, std::int64_t number, double possible, const GivenMark& given) {
-    return {group, number, given.points, possible, 0, true, given.reason, 0};
-}
-
 /// With what the instructor gave, and with the penalty.
 LabMark mark_of(const Assignment& assignment, const GradedVersion& version, const MarksByItem& given) {
-    LabMark mark{version.group, version.number, {}, 0, 0, false, "", 0};
+    LabMark mark;
+    mark.group = version.group, mark.number = version.number, mark.version = version.id;
+    mark.checks = version.checks.value_or(std::vector<CheckPoints>());
+    std::vector<std::string> own_reasons;
+    for (const auto& [item, own] : given)
+        if (!own.student.empty() && !own.reason.empty()) own_reasons.push_back(own.reason);
+    mark.own_reasons = fmt::format("{}", fmt::join(own_reasons, "; "));
     double earned = 0;
-    bool whole = version.checks && !version.checks->empty();
-    for (const CheckPoints& check : version.checks.value_or(std::vector<CheckPoints>())) {
-        const auto own = given.find(check.id);
+    for (CheckPoints& check : mark.checks) {
+        if (const auto own = given.find(check.id); own != given.end())
+            check.earned = *own->second.points, check.graded = true;
         mark.possible += check.points;
-        whole = whole && (check.graded || own != given.end());
-        earned += own != given.end() ? *own->second.points : check.graded ? check.earned : 0;
+        if (check.graded) earned += check.earned;
     }
     const double penalty = earned * late_percent(assignment.costs, version.late) / 100;
+    if (std::ranges::any_of(mark.checks, &CheckPoints::graded)) mark.by_checks = earned - penalty;
     if (const auto own = given.find(kWholeItem); own != given.end()) {
-        LabMark marked = whole_mark(version.group, version.number, mark.possible, own->second);
-        marked.by_checks = earned - penalty;
-        return marked;
+        mark.earned = own->second.points, mark.by_hand = true, mark.reason = own->second.reason;
+        return mark;
     }
     if (!waits_for_confirmation(assignment.costs, version.late, version.confirmed)) mark.penalty = penalty;
-    if (whole) mark.earned = earned - mark.penalty, mark.by_checks = earned - penalty;
+    if (mark.by_checks && std::ranges::all_of(mark.checks, &CheckPoints::graded)) mark.earned = earned - mark.penalty;
     return mark;
+}
+
+/// Whether a version counts instead of one that came before. One without marks never counts before one with marks.
+bool counts_before(const LabMark& later, const LabMark& earlier, bool newest_counts) {
+    const auto merit = [](const LabMark& one) {
+        const double by_checks = one.by_checks.value_or(-1);
+        return std::pair(one.by_hand ? *one.earned : by_checks, by_checks);
+    };
+    const double none = -1;
+    if (newest_counts && merit(later).first > none && merit(earlier).first > none) return true;
+    return merit(later) >= merit(earlier);
 }
 
 }  // namespace
@@ -235,7 +248,8 @@ std::optional<double> LabMark::percent() const {
     return 100 * *earned / possible;
 }
 
-std::vector<LabMark> lab_marks(Course& course, const Assignment& assignment, const std::string& student) {
+std::vector<LabMark> lab_marks(Course& course, const Assignment& assignment, const std::string& student,
+                               const std::set<std::int64_t>* versions) {
     // Marks of a version go before those of all, and a student's own before those of the group.
     std::map<std::int64_t, MarksByItem> of_group, of_version, own;
     for (const GivenMark& mark : marks_in_force(course, assignment)) {
@@ -254,20 +268,18 @@ std::vector<LabMark> lab_marks(Course& course, const Assignment& assignment, con
     std::map<std::int64_t, LabMark> marks;
     double possible = 0;
     for (const GradedVersion& version : graded_versions(course, assignment)) {
+        if (versions != nullptr && !versions->contains(version.id)) continue;
         const LabMark mark = mark_of(assignment, version, given_to(version.group, version.id));
         possible = std::max(possible, mark.possible);
         const auto [known, fresh] = marks.emplace(version.group, mark);
-        const auto merit = [](const LabMark& one) {
-            return std::pair(!one.earned ? -1 : one.by_hand ? *one.earned : one.by_checks, one.by_checks);
-        };
-        const bool better = merit(mark) >= merit(known->second);
-        if (!fresh && (assignment.keep == "newest" || better)) known->second = mark;
+        if (!fresh && counts_before(mark, known->second, assignment.keep == "newest")) known->second = mark;
     }
     for (const auto* with_marks : {&of_group, &own})
         for (const auto& [group, items] : *with_marks) {
+            GradedVersion nothing;
+            nothing.group = group;
             const MarksByItem given = given_to(group, 0);
-            if (const auto whole = given.find(kWholeItem); whole != given.end())
-                marks.try_emplace(group, whole_mark(group, 0, 0, whole->second));
+            if (given.contains(kWholeItem)) marks.try_emplace(group, mark_of(assignment, nothing, given));
         }
     for (auto& [group, mark] : marks)
         if (mark.by_hand && mark.possible == 0) mark.possible = possible;

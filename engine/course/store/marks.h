@@ -1,6 +1,7 @@
 #pragma once
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -89,12 +90,18 @@ struct LabMark {
     std::int64_t group = 0, number = 0;  ///< of the version; 0 where nothing was submitted
     std::optional<double> earned;        ///< penalty taken off; nothing where something is not graded yet
     double possible = 0, penalty = 0;
-    bool by_hand = false;  ///< the whole was marked by the instructor
-    std::string reason;    ///< of that mark
-    double by_checks = 0;  ///< points without that mark, as if a penalty that waits were confirmed
+    bool by_hand = false;             ///< the whole was marked by the instructor
+    std::string reason;               ///< of that mark
+    std::string own_reasons;          ///< of the marks of the student alone, a list
+    std::int64_t version = 0;         ///< id of the version; 0 where nothing was submitted
+    std::vector<CheckPoints> checks;  ///< with the instructor's marks
+    std::optional<double> by_checks;  ///< points so far without the mark of the whole, as if a penalty that waits were
+                                      ///< confirmed; nothing before a check is graded
     std::optional<double> percent() const;
 };
-/// Of each group that submitted something or has a mark. Marks of single students: `student` gives them.
-std::vector<LabMark> lab_marks(Course& course, const Assignment& assignment, const std::string& student = "");
+/// Of each group that submitted something or has a mark. `student`: with the marks of this student alone. `versions`:
+/// ids of those that are considered; default all that are not withdrawn.
+std::vector<LabMark> lab_marks(Course& course, const Assignment& assignment, const std::string& student = "",
+                               const std::set<std::int64_t>* versions = nullptr);
 
 }  // namespace dynlab::inline course

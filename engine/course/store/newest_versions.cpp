@@ -50,14 +50,14 @@ std::vector<FileNotTaken> files_not_taken(Course& course, const Assignment& assi
 }
 
 std::map<std::string, std::int64_t> author_groups(Course& course, const Assignment& assignment) {
-    std::map<std::int64_t, Instant> submitted;
-    for (Rows rows = course.database().query("SELECT group_id, min(received_at) FROM standing WHERE assignment = ? AND "
-                                             "stage = 'first' GROUP BY "
-                                             "group_id",
+    std::map<std::int64_t, Instant> submitted, withdrawn;
+    for (Rows rows = course.database().query("SELECT group_id, withdrawn, min(received_at) FROM arrived WHERE "
+                                             "assignment = ? AND stage = 'first' AND group_id IS NOT NULL GROUP BY "
+                                             "group_id, withdrawn",
                                              assignment.id);
          rows.next();)
-        submitted[rows.integer(0)] = rows.integer(1);
-    std::map<std::string, std::int64_t> authors, present;
+        (rows.integer(1) != 0 ? withdrawn : submitted)[rows.integer(0)] = rows.integer(2);
+    std::map<std::string, std::int64_t> authors, of_withdrawn, present;
     // The group of several that counts comes last: a present one, the first by name.
     for (Rows rows = course.database().query(
              "SELECT m.student, m.group_id, m.since, m.until, "
@@ -68,10 +68,13 @@ std::map<std::string, std::int64_t> author_groups(Course& course, const Assignme
         const std::int64_t group = rows.integer(1);
         const std::optional<Instant> until = rows.optional_integer(3);
         if (!until) present[student] = group;
-        const auto at = submitted.find(group);
-        if (at == submitted.end() || (until && *until <= at->second)) continue;
-        if (rows.integer(2) <= at->second || rows.integer(4) != 0) authors[student] = group;
+        for (const auto& [times, groups] : {std::pair(&submitted, &authors), {&withdrawn, &of_withdrawn}}) {
+            const auto at = times->find(group);
+            if (at == times->end() || (until && *until <= at->second)) continue;
+            if (rows.integer(2) <= at->second || rows.integer(4) != 0) (*groups)[student] = group;
+        }
     }
+    authors.merge(of_withdrawn);
     authors.merge(present);
     return authors;
 }

@@ -25,7 +25,8 @@ std::map<std::int64_t, std::map<std::string, SubmittedParts>> newest_versions(Co
                                                                               const Assignment& assignment);
 
 /// The group whose work of an assignment counts for each student (by id): the group that the student belonged to when
-/// it first submitted, else the student's group now. The first membership of a student counts from the beginning.
+/// it first submitted, else the one when it submitted what is withdrawn now, else the student's group now. The first
+/// membership of a student counts from the beginning.
 std::map<std::string, std::int64_t> author_groups(Course& course, const Assignment& assignment);
 
 /// A file whose owner or place is unknown, until the instructor assigns it or a later file.
