@@ -97,6 +97,20 @@ TEST(name_forms, groups_in_other_words) {
     expect_hint({"as Group 2 did", "group2.csv", "Team 12"});
 }
 
+TEST(name_forms, groups_without_a_number) {
+    IdentityMatcher names;
+    names.add(known("20214711", "Ada Lovelace", "Les Loups"), true);
+    names.add(known("20214712", "Bo Linwood", "Zephyrians"), true);
+    names.add(known("20214713", "Grace Hopper", "Signal"), true);
+    names.add(known("20215000", "Mei Wuthering", "Blue Herons"));
+    names.add(known("20215001", "Mark Youngman", "Falconers"));
+    EXPECT_EQ(found(names, "by the Les Loups team"), "Les Loups");
+    EXPECT_EQ(found(names, "les_loups.pdf"), "Les Loups");
+    EXPECT_EQ(found(names, "We, the zephyrians, measured"), "Zephyrians");
+    EXPECT_EQ(found(names, "as Blue Herons did"), "Blue Herons");
+    EXPECT_EQ(found(names, "the signal of the falconers"), "") << "a word, and one word of others";
+}
+
 TEST(name_forms, surnames_in_small_letters_and_identifiers) {
     expect_certain({"fig_lovelace.pdf", "lovelace_hopper", "crane_lovelace2", "a.lovelace", "LovelaceHopper",
                     "author = lovelace", "plotHopper(x)", "/srv/hopper/crane", "hopper@laptop", "data_hopper = 3"});

@@ -31,10 +31,11 @@ struct NameHit {
 /// count. For the document's authors more counts: given names alone (not certain, except in an identifier or a path),
 /// two authors together ("Wu & Li"), short names with an initial ("B. Li", "Ada L."). A number counts from six digits,
 /// also in groups ("2021 4711") or after letters ("s20214711"), or from five letters and digits; a shorter one only
-/// after a word such as "student". A group counts with other words for a group; without its zeros ("Group 1") it is
-/// certain only for the authors. Home folders (/home/NAME, C:\Users\NAME, NAME@HOST:~) always count. Percent-encoded
-/// and compatibility forms are decoded first; letters of other scripts count as the Latin ones they look like. White
-/// space within a word does not matter.
+/// after a word such as "student". A group counts with other words for a group; one whose name is a single word without
+/// a number only for the authors, and not if the word is an ordinary one; without its zeros ("Group 1") it is certain
+/// only for the authors. Home folders (/home/NAME, C:\Users\NAME, NAME@HOST:~) always count. Percent-encoded and
+/// compatibility forms are decoded first; letters of other scripts count as the Latin ones they look like. White space
+/// within a word does not matter.
 class IdentityMatcher {
   public:
     IdentityMatcher() = default;

@@ -221,11 +221,28 @@ constexpr const char* kWrittenNumbers[][2] = {{"zero", "0"},     {"one", "i"},  
                                               {"four", "iv"},    {"five", "v"}, {"six", "vi"}, {"seven", "vii"},
                                               {"eight", "viii"}, {"nine", "ix"}};
 
+/// "Les Loups": a name without a number. One word counts only for the authors, and not if it is an ordinary word.
+void add_team(const std::string& group, const std::vector<NameToken>& tokens, bool own,
+              std::vector<NamePattern>& patterns) {
+    NamePattern pattern;
+    pattern.kind = NameKind::kGroup;
+    pattern.who = group;
+    for (const NameToken& token : tokens) {
+        if (!pattern.letters.empty()) pattern.breaks.insert(pattern.letters.size());
+        pattern.letters += token.letters;
+    }
+    constexpr std::size_t kMinLetters = 5;
+    if (pattern.letters.size() < kMinLetters) return;
+    if (tokens.size() == 1 && (!own || is_ordinary_word(pattern.letters))) return;
+    patterns.push_back(std::move(pattern));
+}
+
 /// "group-01" is also "Team 01", "group1" or "Group 1", in all words for a group; of the authors' own, "G01" too.
 void add_group(const std::string& group, bool own, std::vector<NamePattern>& patterns) {
     const std::size_t first = patterns.size();
     add_number(NameKind::kGroup, group, group, patterns);
     const std::vector<NameToken> tokens = name_tokens(group);
+    if (std::ranges::none_of(tokens, &NameToken::digits)) add_team(group, tokens, own, patterns);
     if (tokens.size() == 2 && !tokens[0].digits && tokens[1].digits) {
         std::vector<std::string> words = {"group", "groupe", "gruppe", "grp", "team", "equipe"};
         const std::string& given = tokens[1].letters;
@@ -305,7 +322,7 @@ std::vector<NamePattern> patterns_of(const Student& student, bool own) {
     const std::string written_out = umlauts_written_out(student.name);
     if (written_out != student.name) add_names(who, full_name(written_out), own, patterns);
     add_number(NameKind::kNumber, who, student.id, patterns);
-    if (!student.group.empty()) add_group(student.group, own, patterns);
+    if (!student.group.empty() && student.group != student.id) add_group(student.group, own, patterns);
     for (const std::string& group : student.other_groups) add_group(group, own, patterns);
     const std::string account = student.mail.substr(0, student.mail.find('@'));
     if (account != student.id) add_number(NameKind::kMail, who, account, patterns);

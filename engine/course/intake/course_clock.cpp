@@ -1,5 +1,6 @@
 #include "course/intake/course_clock.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdlib>
 #include <ctime>
@@ -72,6 +73,12 @@ Instant CourseClock::parse(const std::string& text, const std::string& what) con
                               text);
     if (!read->exists && utc) throw InvalidArgument("{} \"{}\" does not exist", what, text);
     if (!read->exists) throw InvalidArgument("{} \"{}\" does not exist in {}", what, text, zone_);
+    constexpr Instant kHour = 3600;
+    for (const Instant other : {read->instant - kHour, read->instant + kHour})
+        if (!utc && same_reading(local(other), local(read->instant)))
+            throw InvalidArgument(
+                "{} \"{}\" occurs twice in {}, because the clocks go back. Give it in UTC: \"{}\" or \"{}\"", what,
+                text, zone_, utc_text(std::min(other, read->instant)), utc_text(std::max(other, read->instant)));
     return read->instant;
 }
 
