@@ -139,6 +139,85 @@ TEST_F(course_grading, both_exports_give_a_platform_the_same_marks) {
                 HasSubstr("224,Max Mustermann,group-03,max@u.example"));
 }
 
+// oracle: the group that the student submitted with
+TEST_F(course_grading, a_student_who_moves_keeps_the_work_and_the_files_of_the_former_group) {
+    submit("group-01", kSolution, "2026-02-20 12:00");
+    submit("group-02", "answer('x', 1)\n", "2026-02-20 12:00");
+    grade();
+    EXPECT_THAT(done({"mark", "lab4", "222", "q", "3"}),
+                HasSubstr("lab4: group-01 (Kim Min-jun, Élise Petit) has 3 points for q"));
+    EXPECT_THAT(done({"mark", "lab4", "222", "q", "4", "--alone"}), HasSubstr("lab4: Élise Petit has 4 points for q"));
+    done({"withdraw", "lab4", "222", "--mark", "q", "--alone", "--reason", "a slip"});
+    done({"mark", "lab4", "group-02", "q", "1"});
+    work().write("moved.csv", "id,group\n222,group-02\n");
+    EXPECT_THAT(done({"import", "moved.csv", "--at", "2026-02-25 12:00"}),
+                HasSubstr("222 moved from group-01 to group-02"));
+    submit("group-02", "answer('x', 2)\n", "2026-02-26 12:00");
+    done({"mark", "lab4", "group-02", "q", "1"});
+    EXPECT_EQ(grade().exit_code, 0);
+    EXPECT_THAT(book(), AllOf(HasSubstr("222,Élise Petit,group-01,graded,5,6,"),
+                              HasSubstr("223,Max Mustermann,group-02 v2,graded,1,6,")));
+    done({"deliver", "lab4", "--out", "monday"});
+    EXPECT_THAT(work().read("monday/mail.csv"),
+                AllOf(HasSubstr("222,Élise Petit,group-01,"), Not(HasSubstr("222,Élise Petit,group-02,"))));
+    // A move before the first work came: the work is that of the new group.
+    work().write("back.csv", "id,group\n221,group-02\n");
+    done({"import", "back.csv", "--at", "2026-02-19 12:00"});
+    EXPECT_EQ(grade().exit_code, 0);
+    EXPECT_THAT(book(), HasSubstr("221,Kim Min-jun,group-02 v2,graded,1,6,"));
+}
+
+// oracle: what the instructor wrote; nothing submitted is 0 points for checks that nobody marked
+TEST_F(course_grading, marks_count_without_a_submission_and_tell_of_a_newer_one) {
+    submit("group-01", kSolution, "2026-02-20 12:00");
+    grade();
+    done({"mark", "lab4", "group-01", "4", "--reason", "desk", "--at", "2026-02-21 12:00"});
+    done({"mark", "lab4", "group-02", "q", "3", "--reason", "shown at the desk"});
+    const ChildResult graded = grade();
+    EXPECT_EQ(graded.exit_code, 0) << graded.error_output;
+    EXPECT_THAT(work().read("k/marks/lab4/marks.csv"), HasSubstr("group-02,q,3,shown at the desk"));
+    EXPECT_THAT(book(), HasSubstr("223,Max Mustermann,,nothing submitted,3,6,"));
+    EXPECT_THAT(done({"export"}), HasSubstr("223,Max Mustermann,,,,group-02,50,50,,"));
+    submit("group-01", "answer('x', 42)\n-- better\n", "2026-02-22 12:00");
+    const ChildResult again = grade();
+    EXPECT_THAT(
+        again.output + again.error_output,
+        HasSubstr("\"group-01 v2\" came after you marked the complete submission; your mark of 4 still counts"));
+}
+
+// oracle: the help of the commands
+TEST_F(course_grading, impossible_times_are_refused_and_a_plain_table_of_deadlines_is_read) {
+    done({"assignment", "lab4", "--costs", "late-day:20", "--grace", "15 min"});
+    submit("group-01", kSolution, "2026-02-20 12:00");
+    EXPECT_THAT(course({"extend", "lab4", "group-01", "2026-02-25 12:00", "--reason", "illness"}).error_output,
+                HasSubstr("the deadline of the class is 2026-03-01 12:00:00 UTC. An extension cannot be earlier"));
+    EXPECT_THAT(course({"set-received", "lab4", "group-01", "2126-02-25 12:00", "--reason", "log"}).error_output,
+                HasSubstr("which is in the future"));
+    work().write("deadlines.csv", "group,deadline\nMax Mustermann,2026-03-05 12:00\n");
+    EXPECT_EQ(done({"import", "deadlines.csv", "--deadlines", "lab4"}),
+              "lab4: 1 extended, 0 with another time of receipt.\n");
+    EXPECT_THAT(done({"who", "223"}), HasSubstr("2026-03-05 12:00"));
+}
+
+// oracle: the same marks after the folder was moved
+TEST_F(course_grading, a_course_with_its_secret_and_checks_inside_can_be_moved) {
+    work().write("k/secret.txt", "chosen by a test");
+    work().write("k/own/more.lua", "check{id = 'own', points = 1, test = function(a) return a.x > 41 end}\n");
+    done({"assignment", "lab4", "--secret", "k/secret.txt", "--checks", "k/own"});
+    submit("group-01", kSolution, "2026-02-20 12:00");
+    grade();
+    done({"mark", "lab4", "group-01", "q", "2"});
+    grade();
+    const std::string before = book();
+    EXPECT_THAT(before, HasSubstr("221,Kim Min-jun,group-01,graded,5,7,"));
+    done({"export", "--json", "-o", "course.json"});
+    done({"import", "course.json", "copy", "--from", "k"});
+    work().shell("mv k elsewhere && mv copy k");
+    const ChildResult graded = grade({"--regrade"});
+    EXPECT_EQ(graded.exit_code, 0) << graded.error_output;
+    EXPECT_EQ(book(), before);
+}
+
 // oracle: the maximum of the check; what was taken back is in force no more
 TEST_F(course_grading, marks_above_the_maximum_are_refused_and_marks_are_taken_back) {
     submit("group-01", "answer('x', 1)\n", "2026-02-27 12:00");

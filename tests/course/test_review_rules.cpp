@@ -13,6 +13,7 @@
 #include "course/review/peer_review.h"
 #include "course/review/review_marks.h"
 #include "course/review/score_sheet.h"
+#include "course/store/marks.h"
 #include "course/store/newest_versions.h"
 
 namespace dynlab::test {
@@ -249,6 +250,26 @@ TEST_F(review_rules, marks_follow_the_membership_at_the_submission) {
     course_.database().run("UPDATE memberships SET since = ? WHERE student = 's3' AND until IS NULL",
                            at("2026-02-20 10:00"));
     EXPECT_EQ(author_groups(course_, crane_).at("s3"), id("group-04"));  // moved before the submission
+}
+
+// oracle: the percent that the instructor gave, from which nothing is taken off; a review that nobody was sent
+TEST_F(review_rules, deductions_are_of_computed_marks_and_of_reviews_that_were_sent) {
+    crane_.costs = costs_of("missing-final:30,missing-review:25");
+    set_assignment(course_, crane_, "a test");
+    import_scores(course_, crane_, "first", file("s.csv", "reviewer,report,data\ninstructor,group-01,4\n"),
+                  at("2026-03-06 10:00"));
+    const auto row = [&] {
+        const std::string csv = marks_csv(course_, crane_, at("2026-05-01 10:00"));
+        return csv.substr(csv.find("s1,"), csv.find("s2,") - csv.find("s1,"));
+    };
+    EXPECT_THAT(row(), AllOf(HasSubstr("30 % deducted for a missing final version"),
+                             HasSubstr("50 % deducted for 2 missing reviews")));
+    Transaction transaction(course_.database());
+    give_mark(course_, crane_, {id("group-01"), "", "*", 70, "seen"}, at("2026-03-07 10:00"));
+    transaction.commit();
+    EXPECT_THAT(row(), AllOf(HasSubstr(",70,seen,"), Not(HasSubstr("30 % deducted")), HasSubstr("50 % deducted")));
+    course_.database().run("DELETE FROM sendings WHERE pair = ?", pair_of("group-01").id);
+    EXPECT_THAT(row(), HasSubstr("25 % deducted for 1 missing review"));
 }
 
 // oracle: the remark, and the pair that is taken back

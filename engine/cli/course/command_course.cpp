@@ -50,9 +50,9 @@ void add_init(CLI::App& course, Action& action) {
     });
 }
 
-int import_people(const CourseArguments& where, const std::string& file, bool no_groups) {
+int import_people(const CourseArguments& where, const std::string& file, bool no_groups, const std::string& at) {
     Course opened(where.folder);
-    const RosterChange change = import_roster(opened, file, no_groups);
+    const RosterChange change = import_roster(opened, file, no_groups, time_of(opened, at));
     if (change.converted)
         std::cerr << terminal_text(
             fmt::format("dynlab: {} is not UTF-8; dynlab read it as Latin-1 (Windows-1252)\n", file));
@@ -63,9 +63,12 @@ int import_people(const CourseArguments& where, const std::string& file, bool no
         std::cerr << terminal_text(fmt::format("dynlab: {}: {}\n", file, message_text(change.short_ids)));
     std::cout << message_text(Message("{}: {} new, {} changed, {} moved to another group; {}.",
                                       plural(change.students, "{} student", "{} students"), change.new_students,
-                                      change.changed, change.moved,
+                                      change.changed, std::ssize(change.moved),
                                       plural(change.new_groups, "{} new group", "{} new groups")))
               << '\n';
+    for (const RosterChange::Move& move : change.moved)
+        std::cout << terminal_text(message_text(Message("  {} moved from {} to {}", move.student, move.from, move.to)))
+                  << '\n';
     if (!change.absent.empty())
         std::cout << terminal_text(
             fmt::format("In the course, but not in this file (not changed; drop GROUP removes a group): {}\n",
@@ -86,7 +89,7 @@ int import_table(const CourseArguments& where, const std::string& assignment, co
 
 void add_import(CLI::App& course, CourseArguments& where, Action& action) {
     struct Arguments {
-        std::string file, folder, assignment, from = ".";
+        std::string file, folder, assignment, at, from = ".";
         bool no_groups = false;
     };
     auto args = std::make_shared<Arguments>();
@@ -99,6 +102,7 @@ void add_import(CLI::App& course, CourseArguments& where, Action& action) {
     command->add_flag("--no-groups", args->no_groups, "The file has no column group: each new student works alone");
     command->add_option("--deadlines", args->assignment, "Read FILE as the deadlines of this assignment")
         ->type_name("ASSIGNMENT");
+    add_time_option(*command, args->at);
     command->add_option("--from", args->from, "For a JSON export: folder of the old course, with its files and key")
         ->capture_default_str();
     command->footer(
@@ -106,7 +110,9 @@ void add_import(CLI::App& course, CourseArguments& where, Action& action) {
         "reads the\n"
         "exports of Moodle and Canvas. A student without a group works alone; | joins several groups. Students and "
         "columns\n"
-        "that are not in the file do not change.\n"
+        "that are not in the file do not change. A student who moves keeps the marks of the group that the student "
+        "submitted\n"
+        "with; give the day of the move with --at if that was before today.\n"
         "Examples:\n"
         "  dynlab course import roster.csv\n"
         "  dynlab course import deadlines.csv --deadlines lab4    with the columns of dynlab grade\n"
@@ -114,7 +120,7 @@ void add_import(CLI::App& course, CourseArguments& where, Action& action) {
     command->callback([&where, args, &action] {
         action = [&where, args]() -> int {
             if (!args->assignment.empty()) return import_table(where, args->assignment, args->file);
-            if (args->folder.empty()) return import_people(where, args->file, args->no_groups);
+            if (args->folder.empty()) return import_people(where, args->file, args->no_groups, args->at);
             import_course(args->file, args->from, args->folder);
             std::cout << fmt::format("Course created in {} from {}.\n", args->folder, args->file);
             return kDone;
@@ -155,12 +161,17 @@ struct AssignmentArguments {
 };
 
 /// A path as it is found again from elsewhere; "none" takes it back.
-std::string lasting_path(const std::string& given) {
-    return given == "none" ? "" : fs::absolute(given).lexically_normal().string();
+/// In the folder of the course relative to it, so that the course can be moved; else absolute.
+std::string lasting_path(const Course& course, const std::string& given) {
+    if (given == "none") return "";
+    const fs::path path = fs::absolute(given).lexically_normal(),
+                   inside = path.lexically_relative(fs::absolute(course.folder()).lexically_normal());
+    return inside.empty() || *inside.begin() == ".." ? path.string() : inside.string();
 }
 
 /// Sets what was given.
-void apply(const AssignmentArguments& args, const CourseClock& clock, Assignment& a) {
+void apply(const AssignmentArguments& args, const Course& course, Assignment& a) {
+    const CourseClock& clock = course.clock();
     if (!args.lesson.empty()) {
         a.lesson = lasting_name(find_lesson(args.lesson));
     }
@@ -178,9 +189,9 @@ void apply(const AssignmentArguments& args, const CourseClock& clock, Assignment
     if (args.final_weight) a.final_weight = *args.final_weight;
     if (args.weight) a.weight = *args.weight;
     if (args.reviews_weight) a.reviews_weight = *args.reviews_weight;
-    if (!args.checks.empty()) a.checks = lasting_path(args.checks);
-    if (!args.secret.empty()) a.secret = lasting_path(args.secret);
-    if (!a.secret.empty() && !args.secret.empty()) secret_in(a.secret);
+    if (!args.checks.empty()) a.checks = lasting_path(course, args.checks);
+    if (!args.secret.empty()) a.secret = lasting_path(course, args.secret);
+    if (!a.secret.empty() && !args.secret.empty()) secret_in(course.folder() / a.secret);
     if (!args.keep.empty()) a.keep = args.keep;
 }
 
@@ -204,7 +215,7 @@ int enter_assignment(const CourseArguments& where, const AssignmentArguments& ar
     if (!kind.empty()) a.kind = kind;
     if (!a.is_report()) a.review_due.reset(), a.final_due.reset();
     if (args.reviews) a.reviews = *args.reviews;
-    apply(args, course.clock(), a);
+    apply(args, course, a);
     if (!args.criteria.empty())
         a.criteria = criteria_of(args.criteria);
     else if (known == all.end() || other_kind)

@@ -67,6 +67,9 @@ int extend_for_one(Course& course, const Assignment& a, const CorrectionArgument
         throw InvalidArgument("give the new deadline, or --end to return to the deadline of the class");
     std::optional<Instant> due;
     if (!args.end) due = course.clock().parse(args.time, "TIME");
+    if (const Instant of_class = due_of_class(a, args.requested.stage); due && *due < of_class)
+        throw InvalidArgument("the deadline of the class is {}. An extension cannot be earlier",
+                              course.clock().show_exactly(of_class));
     extend(course, a, args.requested.group, args.requested.stage, due, args.reason, time_of(course, args.at));
     const Group group = group_named(course, args.requested.group);
     std::cout << fmt::format("{}: due for {} {}.\n", a.name, group.name,

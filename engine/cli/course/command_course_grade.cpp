@@ -67,6 +67,22 @@ std::int64_t group_of_work(Course& course, const Assignment& a, const std::strin
     return author != authors.end() ? author->second : group_named(course, who).id;
 }
 
+/// "group-01 (Kim Min-jun, Élise Petit)": all who get the mark. A number of written answers stays anonymous.
+std::string marked_people(Course& course, const Assignment& a, const GivenMark& mark, const std::string& who) {
+    if (group_of_answers(course, a, who) && mark.student.empty()) return who;
+    std::map<std::string, std::string> names;
+    for (const Student& student : students_of(course))
+        names[student.id] = student.name.empty() ? student.id : student.name;
+    if (!mark.student.empty()) return names[mark.student];
+    for (const Group& group : groups_of_authors(course, a)) {
+        if (group.id != mark.group) continue;
+        std::vector<std::string> members;
+        for (const std::string& id : group.members) members.push_back(names[id]);
+        return members.empty() ? group.name : fmt::format("{} ({})", group.name, fmt::join(members, ", "));
+    }
+    return who;
+}
+
 constexpr double kMaxPercent = 200;  ///< for work that deserves more than all
 
 int set_mark(const CourseArguments& where, const MarkArgs& args) {
@@ -98,10 +114,11 @@ int set_mark(const CourseArguments& where, const MarkArgs& args) {
     if (args.seen) refuse_unseen_entry(course, a, mark.group, args.who, mark.item, *args.seen);
     give_mark(course, a, mark, time_of(course, args.at));
     transaction.commit();
+    const std::string who = marked_people(course, a, mark, args.who);
     std::cout << terminal_text(
-        a.is_lab() ? fmt::format("{}: {} has {} {} for {}; dynlab course grade {} writes the feedback.\n", a.name,
-                                 args.who, *mark.points, *mark.points == 1 ? "point" : "points", mark.item, a.name)
-                   : fmt::format("{}: {} has {} percent for its {}.\n", a.name, args.who, *mark.points,
+        a.is_lab() ? fmt::format("{}: {} has {} {} for {}; dynlab course grade {} writes the feedback.\n", a.name, who,
+                                 *mark.points, *mark.points == 1 ? "point" : "points", mark.item, a.name)
+                   : fmt::format("{}: {} has {} percent for its {}.\n", a.name, who, *mark.points,
                                  mark.item == kWholeItem ? "work" : mark.item));
     return kDone;
 }

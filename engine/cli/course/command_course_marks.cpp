@@ -64,7 +64,7 @@ int scores(const CourseArguments& where, const MarkArguments& args) {
     const Assignment a = assignment_named(course, args.assignment);
     const Instant now = time_of(course, args.at);
     const int fresh = import_scores(course, a, args.stage, args.file, now);
-    std::cout << fmt::format("{}: {} new scores.\n", a.name, fresh);
+    std::cout << message_text(Message("{}: {}.", a.name, plural(fresh, "{} new score", "{} new scores"))) << '\n';
     return kDone;
 }
 
@@ -77,9 +77,8 @@ void print_penalties_and_gaps(Course& course, const Assignment& a, const Marks& 
     for (const Group& group : groups_of(course))
         for (const GroupMark& mark : all.groups) {
             if (mark.group != group.id) continue;
-            if (!mark.costs.empty())
-                std::cout << terminal_text(message_text(Message("{}: {}.", group.name, MessageList{mark.costs})))
-                          << '\n';
+            if (const std::vector<Message> costs = all.costs_of(mark); !costs.empty())
+                std::cout << terminal_text(message_text(Message("{}: {}.", group.name, MessageList{costs}))) << '\n';
             if (mark.final_version)
                 std::cout << terminal_text(
                     fmt::format("{}: the final version has {:.1f} percent, {:g} percent of the work's mark.\n",

@@ -123,6 +123,9 @@ void confirm_arrivals(Course& course, const Assignment& a, const std::vector<std
 std::vector<std::int64_t> correct_arrival(Course& course, const Assignment& a, const SubmissionSelection& requested,
                                           Instant received, const std::string& reason, Instant now) {
     refuse_without_reason(reason);
+    if (received > now)
+        throw InvalidArgument("a file cannot have been received at {}, which is in the future",
+                              course.clock().show_exactly(received));
     Transaction transaction(course.database());
     const SelectedFiles files(course, a, requested);
     const std::vector<Found> all = files.all(false);

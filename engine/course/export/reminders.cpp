@@ -46,7 +46,7 @@ class Gaps {
     void reviews(const std::vector<ReviewPair>& pairs) {
         if (!assignment_.review_due) return;
         for (const ReviewPair& pair : pairs)
-            if (pair.reviewer == group_.id && !pair.ended && !pair.written && is_requested("review"))
+            if (pair.reviewer == group_.id && pair.sent && !pair.ended && !pair.written && is_requested("review"))
                 missing_.push_back(Message("the review of {}, due {}", pair.report_pseudonym(),
                                            date_of(course_.clock(), due_of("review"))));
     }
@@ -73,7 +73,7 @@ std::vector<Reminder> reminders_of(Course& course, const Assignment& assignment,
     std::vector<ReviewPair> pairs;
     if (assignment.is_report()) pairs = review_pairs(course, assignment);
     std::vector<Reminder> reminders;
-    for (const Group& group : groups_of(course)) {
+    for (const Group& group : groups_of_authors(course, assignment)) {
         if (group.dropped_out || (!only.empty() && !only.contains(group.id))) continue;
         auto& stages = versions[group.id];
         Gaps gaps(course, assignment, group, now, early);

@@ -7,7 +7,7 @@
 #include "base/reader.h"
 #include "course/export/mailing.h"
 #include "course/export/platform_sheet.h"
-#include "course/store/groups.h"
+#include "course/store/newest_versions.h"
 #include "course/store/receipts.h"
 #include "course/store/senders.h"
 #include "numerics/error.h"
@@ -39,7 +39,7 @@ class Returner {
     ReturnOutcome run() {
         if (fs::exists(request_.folder))
             throw InvalidArgument("{} already exists; give the name of a new folder", request_.folder.string());
-        for (const Group& group : groups_of(course_)) collect(group);
+        for (const Group& group : groups_of_authors(course_, assignment_)) collect(group);
         if (outcome_.files.empty()) return std::move(outcome_);
         lay_out();
         save_entry();

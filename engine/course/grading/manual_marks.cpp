@@ -41,7 +41,7 @@ class MarkedItems {
 
     struct Found {
         std::vector<const WorkItem*> items;
-        Message error_reason;  ///< a clause, where there are none
+        Message error_reason;  ///< a clause, where there are none; empty for someone who submitted nothing
     };
     Found find(const std::string& who) const {
         Found found;
@@ -71,8 +71,7 @@ class MarkedItems {
                                                 : Message("\"{}\" is ambiguous: {}", who, base::listed(names));
             found.items.clear();
         } else if (found.items.empty()) {
-            found.error_reason = owner.anybody() ? Message("\"{}\" has submitted nothing", who)
-                                                 : Message("no submission, group or student is named \"{}\"", who);
+            if (!owner.anybody()) found.error_reason = Message("no submission, group or student is named \"{}\"", who);
         }
         return found;
     }
@@ -218,7 +217,7 @@ ManualMarks::ManualMarks(const fs::path& results, const ClassWork& work, const s
             return given != item->given.end() && points_text(given->second) == points_text(*row.points);
         });
         const auto check = max_points.find(row.check);
-        if (found.items.empty())
+        if (!found.error_reason.empty())
             complain(found.error_reason);
         else if (check == max_points.end())
             complain(Message("unknown check \"{}\" (for \"{}\"); * means the complete submission", row.check, row.who));

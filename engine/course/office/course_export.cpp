@@ -38,13 +38,16 @@ std::string hours_text(std::int64_t seconds) {
     return fmt::format("{:.4g}", static_cast<double>(seconds) / 3600);
 }
 
+std::string time_cell(const Course& course, Instant at) {
+    return course.clock().show_exactly(at).substr(0, std::string_view("2026-03-01 15:00").size());
+}
+
 /// When the newest version was received, as spreadsheets read it, and how many hours late it counts.
 std::pair<std::string, std::string> arrival(Course& course, const SubmittedParts& parts, const char* part) {
     const auto found = parts.find(part);
     if (found == parts.end()) return {"missing", ""};
     const SubmittedFile& h = found->second;
-    return {course.clock().show_exactly(h.received_at).substr(0, std::string_view("2026-03-01 15:00").size()),
-            hours_text(h.is_late() ? h.late : 0)};
+    return {time_cell(course, h.received_at), hours_text(h.is_late() ? h.late : 0)};
 }
 
 std::map<std::int64_t, std::string> remarks_by_reviewer(Course& course, const Assignment& a, const Marks& marks) {
@@ -67,12 +70,20 @@ std::string lab_csv(Course& course, const Assignment& a, Instant now) {
     auto versions = newest_versions(course, a);
     const auto authors = author_groups(course, a);
     auto marks = marks_of_students(course, a, now);
+    std::map<std::int64_t, std::pair<std::string, std::string>> arrivals;  // by version
+    for (Rows rows = course.database().query("SELECT id, received_at, late FROM standing WHERE assignment = ?", a.id);
+         rows.next();)
+        arrivals[rows.integer(0)] = {time_cell(course, rows.integer(1)), hours_text(rows.integer(2))};
     for (const Student& s : students_of(course)) {
         std::vector<std::string> row = {s.id, s.name, s.mail, s.moodle, s.canvas, s.group};
         if (const auto author = authors.find(s.id); author != authors.end()) {
-            const auto came = arrival(course, versions[author->second]["first"], a.document());
+            const auto& mark = marks[s.id].lab;
+            const auto counts = mark ? arrivals.find(mark->version) : arrivals.end();
+            const auto came = counts != arrivals.end()
+                                  ? counts->second
+                                  : arrival(course, versions[author->second]["first"], a.document());
             row.insert(row.end(), {came.first, came.second});
-            if (const auto& mark = marks[s.id].lab)
+            if (mark)
                 row.insert(row.end(), {percent_text(mark->earned), fmt::format("{:.4g}", mark->possible),
                                        fmt::format("{:.4g}", mark->penalty), percent_text(marks[s.id].percent),
                                        mark->reason.empty() ? mark->own_reasons : mark->reason});
@@ -197,6 +208,12 @@ void fill_imported(const fs::path& folder, const fs::path& from, std::map<std::s
         transaction.commit();
     }
     Course course(folder);
+    for (const Assignment& a : assignments_of(course))
+        for (const fs::path own : {a.checks, a.secret})
+            if (!own.empty() && own.is_relative() && fs::exists(from / own)) {
+                fs::create_directories((folder / own).parent_path());
+                fs::copy(from / own, folder / own, fs::copy_options::recursive | fs::copy_options::skip_existing);
+            }
     std::vector<std::string> hashes;
     for (const fs::path& kept : submitted_files) hashes.push_back(course.keep(read_file(kept)));
     course.settle(hashes);
@@ -268,7 +285,7 @@ std::string marks_csv(Course& course, const Assignment& a, Instant now) {
             if (a.is_report() && mark->scored == 0 && versions[id]["first"].contains(part))
                 remarks.emplace_back("no scored review");
             if (a.is_report() && mark->scored == 1 && a.reviews > 1) remarks.emplace_back("is based on one review");
-            for (const Message& cost : mark->costs) remarks.push_back(message_text(cost));
+            for (const Message& cost : marks.costs_of(*mark, s.id)) remarks.push_back(message_text(cost));
             const StudentMark* const own = mark->own_points_of(s.id);
             for (const std::string& criterion : own ? own->zeros : mark->zeros)
                 remarks.push_back("no points for " + criterion + ", counted as 0");

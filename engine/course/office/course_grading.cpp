@@ -196,15 +196,17 @@ std::optional<ResultsCourse> course_of_results(const fs::path& results) {
     return ResultsCourse{course, folder.filename(), false};
 }
 
-std::string secret_in(const std::string& file) {
+std::string secret_in(const fs::path& file) {
     std::string secret = read_file(file);
     if (secret.empty())
         throw EnvironmentError(
-            "{} is empty, so the hidden data sets would not be secret. Write a secret text to this file", file);
+            "{} is empty, so the hidden data sets would not be secret. Write a secret text to this file",
+            file.string());
     return secret;
 }
 
-GradingOptions grading_options(const Assignment& assignment, const CourseGradingRequest& request, const fs::path& out) {
+GradingOptions grading_options(const Course& course, const Assignment& assignment, const CourseGradingRequest& request,
+                               const fs::path& out) {
     if (!assignment.is_lab())
         throw InvalidArgument(
             "{} is not a lab, and checks grade only labs. For the scores of reviews and talks, use dynlab course "
@@ -213,8 +215,8 @@ GradingOptions grading_options(const Assignment& assignment, const CourseGrading
     GradingOptions options;
     options.setup = request.setup;
     options.setup.lesson = find_lesson(assignment.lesson);
-    if (!assignment.checks.empty()) options.setup.more_checks = assignment.checks;
-    if (!assignment.secret.empty()) options.setup.secret = secret_in(assignment.secret);
+    if (!assignment.checks.empty()) options.setup.more_checks = course.folder() / assignment.checks;
+    if (!assignment.secret.empty()) options.setup.secret = secret_in(course.folder() / assignment.secret);
     options.out = out;
     options.regrade = request.regrade, options.pdf = request.pdf, options.above_maximum = request.above_maximum;
     return options;
@@ -246,7 +248,7 @@ void save_results(Course& course, const Assignment& assignment, const CourseWork
 }
 
 GradingOutcome grade_assignment(Course& course, const Assignment& assignment, const CourseGradingRequest& request) {
-    const GradingOptions options = grading_options(assignment, request, results_folder(course, assignment));
+    const GradingOptions options = grading_options(course, assignment, request, results_folder(course, assignment));
     const FileLock lock = lock_results(options.out);
     CourseWork work(course, assignment);
     if (work.work().items.empty())

@@ -35,9 +35,9 @@ std::optional<ResultsCourse> course_of_results(const std::filesystem::path& resu
 // Its steps, which folder_grading.h takes too.
 
 /// The secret from which hidden data sets are generated. Throws EnvironmentError if the file is missing or empty.
-std::string secret_in(const std::string& file);
+std::string secret_in(const std::filesystem::path& file);
 /// Throws InvalidArgument for an assignment that is no lab, EnvironmentError for an empty secret.
-GradingOptions grading_options(const Assignment& assignment, const CourseGradingRequest& request,
+GradingOptions grading_options(const Course& course, const Assignment& assignment, const CourseGradingRequest& request,
                                const std::filesystem::path& out);
 /// Brings marks.csv and the marks of the store together. `file_alone`: a row that is taken out takes its mark back.
 void join_marks(Course& course, const Assignment& assignment, const CourseWork& work, const EvaluatedRules& evaluated,

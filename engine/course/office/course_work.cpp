@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "course/grading/feedback.h"
 #include "course/grading/late_penalties.h"
 #include "course/store/inspection.h"
 #include "numerics/error.h"
@@ -41,9 +42,27 @@ std::vector<CourseWork::Stored> CourseWork::read(Course& course, const Assignmen
         versions.push_back({rows.integer(0), rows.integer(1), rows.integer(2), rows.text(3), rows.text(4), rows.text(5),
                             rows.integer(6), rows.integer(7), rows.integer(8), rows.integer(9) != 0, seen.reason});
     }
+    say_what_a_mark_covers(course, assignment.name, versions);
     work_.deadlines = assignment.first_due != kNoDeadline ||
                       std::ranges::any_of(versions, [](const Stored& v) { return v.due != kNoDeadline; });
     return versions;
+}
+
+/// A mark for the complete submission also holds for a version that came later.
+void CourseWork::say_what_a_mark_covers(Course& course, const std::string& assignment,
+                                        const std::vector<Stored>& versions) {
+    for (const GivenMark& mark : given_) {
+        if (mark.item != kWholeItem || mark.version != 0 || !mark.student.empty()) continue;
+        Rows made = course.database().query("SELECT made_at FROM marks WHERE id = ?", mark.id);
+        if (!made.next()) continue;
+        for (const Stored& version : versions)
+            if (version.group == mark.group && version.received > made.integer(0) && version.part != kUnreadable)
+                work_.attention.push_back(Message(
+                    "\"{}\" came after you marked the complete submission; your mark of {} still counts. To count "
+                    "the new submission instead, withdraw your mark (dynlab course withdraw {} {} --mark \"*\")",
+                    name_of(groups_.at(version.group), version.part, version.number), points_text(*mark.points),
+                    assignment, groups_.at(version.group).name));
+    }
 }
 
 CourseWork::CourseWork(Course& course, const Assignment& assignment) {

@@ -49,6 +49,7 @@ class CourseWork {
         Message reason;                            ///< why it cannot be read
     };
     std::vector<Stored> read(Course& course, const Assignment& assignment);
+    void say_what_a_mark_covers(Course& course, const std::string& assignment, const std::vector<Stored>& versions);
     void date(WorkItem& item, const Stored& version, const Assignment& assignment) const;
     void add(Course& course, const Stored& version, const Assignment& assignment);
     void address(WorkItem& item) const;

@@ -18,10 +18,15 @@ constexpr char kForAll[] = "*";
 class DeadlineTable {
   public:
     explicit DeadlineTable(const fs::path& file) : file_(file), table_(read_text_table(file)) {
-        if (!table_.column("submission") || !table_.column("deadline"))
-            throw EnvironmentError("{}: the columns \"submission\" and \"deadline\" are required; the columns are {}",
-                                   file.string(), listed(table_.names));
+        for (const char* name : {"submission", "who", "group", "id", "student", "name"})
+            if (!who_) who_ = table_.column(name);
+        if (!who_ || !table_.column("deadline"))
+            throw EnvironmentError(
+                "{}: the columns \"who\" (or \"group\", \"id\" or \"submission\") and \"deadline\" are required; the "
+                "columns are {}",
+                file.string(), listed(table_.names));
     }
+    const std::string& who(std::size_t row) const { return table_.rows[row][*who_]; }
 
     std::size_t rows() const { return table_.rows.size(); }
     std::string cell(std::size_t row, const char* column) const {
@@ -61,6 +66,7 @@ class DeadlineTable {
   private:
     fs::path file_;
     TextTable table_;
+    std::optional<std::size_t> who_;
 };
 
 /// Brings what the table says of groups into the course.
@@ -119,17 +125,17 @@ class RowsOfGroups {
 
 }  // namespace
 
-std::map<std::string, DeadlineRow> read_deadlines(const fs::path& file) {
+std::map<std::string, DeadlineRow> read_deadlines(const fs::path& file, const DeadlineRow& defaults) {
     const DeadlineTable table(file);
     std::vector<std::size_t> order;  // the row for all first: others go by it
     for (const bool for_all : {true, false})
         for (std::size_t row = 0; row < table.rows(); ++row)
-            if ((table.cell(row, "submission") == kForAll) == for_all) order.push_back(row);
+            if ((table.who(row) == kForAll) == for_all) order.push_back(row);
     std::map<std::string, DeadlineRow> rows;
     for (const std::size_t row : order) {
-        const std::string who = table.cell(row, "submission");
+        const std::string who = table.who(row);
         const auto all = rows.find(kForAll);
-        DeadlineRow read = all != rows.end() ? all->second : DeadlineRow{};
+        DeadlineRow read = all != rows.end() ? all->second : who == kForAll ? DeadlineRow{} : defaults;
         const std::optional<Instant> deadline = table.time(row, "deadline");
         if (!deadline && all == rows.end()) table.fail(row, "deadline", Message("a time such as 2026-03-01 18:00"));
         read.deadline = deadline.value_or(read.deadline) + table.duration(row, "extra").value_or(0);
@@ -144,7 +150,10 @@ std::map<std::string, DeadlineRow> read_deadlines(const fs::path& file) {
 
 DeadlineImport import_deadlines(Course& course, const Assignment& assignment, const fs::path& file, Instant now,
                                 const std::map<std::string, std::int64_t>& submissions) {
-    const std::map<std::string, DeadlineRow> table = read_deadlines(file);
+    DeadlineRow defaults;
+    defaults.grace = assignment.grace;
+    defaults.percent_per_day = assignment.costs.late_day, defaults.max_percent = assignment.costs.late_max;
+    const std::map<std::string, DeadlineRow> table = read_deadlines(file, defaults);
     const std::string reason = "imported from " + file.filename().string();
     const auto all = table.find(kForAll);
     Assignment a = assignment;

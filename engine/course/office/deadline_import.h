@@ -9,18 +9,19 @@
 
 namespace dynlab::inline course {
 
-/// A row of a table of deadlines; what it leaves empty is as in the row of *, there: no grace, 10 and 100 percent.
+/// A row of a table of deadlines; what it leaves empty is as in the row of *; there: no grace, 10 and 100
+/// percent. In a table without that row it is as in the assignment.
 struct DeadlineRow {
     Instant deadline = 0;
     std::optional<Instant> received;  ///< when it was received, if not by the time that the course has
     std::int64_t grace = 0;
     double percent_per_day = 10, max_percent = 100;
 };
-/// By the names in the column `submission`; * is the row of all. Further columns: `deadline` (2026-03-01 18:00, seconds
-/// optional), and optionally `extra` (time beyond the deadline of all: "2 d", "3 h"), `received`, `grace` ("15 min"),
-/// `percent_per_day` (part of a day counts as a day) and `max_percent`. Times are in the process's time zone. Throws
-/// EnvironmentError with file, line and column.
-std::map<std::string, DeadlineRow> read_deadlines(const std::filesystem::path& file);
+/// By the names in the column `submission`, `who`, `group`, `id`, `student` or `name`; * is the row of all. Further
+/// columns: `deadline` (2026-03-01 18:00, seconds optional), and optionally `extra` (time beyond the deadline of all:
+/// "2 d", "3 h"), `received`, `grace` ("15 min"), `percent_per_day` (part of a day counts as a day) and `most_percent`.
+/// Times are in the process's time zone. Throws EnvironmentError with file, line and column.
+std::map<std::string, DeadlineRow> read_deadlines(const std::filesystem::path& file, const DeadlineRow& defaults = {});
 
 struct DeadlineImport {
     int extended = 0, corrected = 0;

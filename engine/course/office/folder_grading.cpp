@@ -169,7 +169,7 @@ void FolderGrading::prepare(Course& course) {
     if (request_.timeout > 0) now.timeout = request_.timeout;
     request_.grading.setup.isolation = now.isolation == "process" ? Isolation::kProcess : Isolation::kFull;
     request_.grading.setup.time.processor = std::chrono::seconds(now.timeout);
-    options_ = grading_options(assignment_, request_.grading, request_.out);
+    options_ = grading_options(course, assignment_, request_.grading, request_.out);
     const auto shown_path = [](const std::string& path) { return path.empty() ? path : fs::proximate(path).string(); };
     now.inputs["lesson checks"] = {assignment_.name + "/checks.lua",  // wherever it is installed
                                    sha256_of_file(options_.setup.lesson.folder / "checks.lua")};

@@ -29,7 +29,8 @@ class CostTaker {
         if (points <= 0 || (!from && (!work || a_.is_report()))) return;
         if (from) from = std::max(0.0, *from - points);
         if (work) mark.work_costs += points;
-        mark.costs.push_back(Message("{} % deducted for {}", significant(points, 6), why));
+        (work ? mark.costs_of_work : mark.costs_of_reviews)
+            .push_back(Message("{} % deducted for {}", significant(points, 6), why));
     }
 
     void take_off_work(GroupMark& mark) {
@@ -43,8 +44,8 @@ class CostTaker {
                                     ? Message("a first version late by {}", duration_message(found->second.late))
                                     : Message("a final version late by {}", duration_message(found->second.late));
             if (waits_for_confirmation(a_.costs, found->second.late, found->second.confirmed))
-                mark.costs.push_back(Message("{} % for {} is not deducted until you confirm the time of receipt",
-                                             significant(percent, 6), why));
+                mark.costs_of_work.push_back(Message(
+                    "{} % for {} is not deducted until you confirm the time of receipt", significant(percent, 6), why));
             else
                 take(mark, mark.work, percent, why);
         }
@@ -53,10 +54,13 @@ class CostTaker {
     }
 
     void take_off_reviews(GroupMark& mark) {
+        // One that was stopped by a name is no fault of the reviewer's. Where dynlab sent nothing, others did.
+        const bool sent = std::ranges::any_of(pairs_, &ReviewPair::sent);
         int missing = 0, late = 0, written = 0;
         for (const ReviewPair& pair : pairs_) {
             if (pair.reviewer != mark.group || pair.ended) continue;
-            written += pair.written, late += pair.late > 0, missing += !pair.written && over(mark, "review");
+            written += pair.written, late += pair.late > 0;
+            missing += (pair.sent || !sent) && !pair.written && over(mark, "review");
         }
         if (missing > 0 && written == 0 && a_.costs.missing_review > 0 && !mark.reviews) mark.reviews = 0;
         take(mark, mark.reviews, a_.costs.missing_review * missing,

@@ -142,6 +142,14 @@ FinalMark Marks::reviews_of(const GroupMark& mark, const std::string& student) c
     return word != nullptr ? FinalMark{word->points, word} : FinalMark{mark.reviews, nullptr};
 }
 
+std::vector<Message> Marks::costs_of(const GroupMark& mark, const std::string& student) const {
+    std::vector<Message> costs;
+    if (work_of(mark, student).given == nullptr) costs = mark.costs_of_work;
+    if (reviews_of(mark, student).given == nullptr)
+        costs.insert(costs.end(), mark.costs_of_reviews.begin(), mark.costs_of_reviews.end());
+    return costs;
+}
+
 Marks marks_of(const std::vector<Criterion>& criteria, const std::vector<ScoredReview>& reviews,
                const std::vector<std::int64_t>& groups) {
     const ReviewMarker marking(criteria, reviews);

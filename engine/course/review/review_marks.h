@@ -50,11 +50,11 @@ struct GroupMark {
     CriterionPoints medians;              ///< over the reviews of its report
     std::optional<double> work, reviews;  ///< percent, from scores, costs taken off
     std::optional<double> final_version;  ///< percent, from the instructor's scores of it; within `work`
-    std::vector<Message> costs;           ///< what was taken off
-    double work_costs = 0;                ///< what was taken off the work, in percent points
-    int scored = 0;                       ///< scored reviews of its report, the instructor's included
-    std::vector<std::string> zeros;       ///< criteria of an oral without points, which count 0
-    std::vector<StudentMark> students;    ///< students whose points differ from those of the group
+    std::vector<Message> costs_of_work, costs_of_reviews;  ///< what was taken off these
+    double work_costs = 0;                                 ///< what was taken off the work, in percent points
+    int scored = 0;                                        ///< scored reviews of its report, the instructor's included
+    std::vector<std::string> zeros;                        ///< criteria of an oral without points, which count 0
+    std::vector<StudentMark> students;                     ///< students whose points differ from those of the group
     const StudentMark* own_points_of(const std::string& student) const;  ///< null where the group's points count
 };
 
@@ -69,6 +69,8 @@ struct Marks {
     std::vector<ReviewMark> reviews;
     std::vector<GivenMark> given;  ///< all that is in force
 
+    /// What was taken off the marks of a group, or of a member. Nothing is taken off a mark that the instructor gave.
+    std::vector<Message> costs_of(const GroupMark& mark, const std::string& student = "") const;
     /// Of a group, or of one of its members: the instructor's word for the student wins, then that for the group, then
     /// the student's own points.
     FinalMark work_of(const GroupMark& mark, const std::string& student = "") const;

@@ -307,7 +307,7 @@ void refuse_without_reason(const std::string& reason) {
     if (reason.empty()) throw InvalidArgument("give a reason, which the history shows: --reason \"...\"");
 }
 
-Instant due_for(Course& course, const Assignment& a, std::int64_t group, const std::string& stage) {
+Instant due_of_class(const Assignment& a, const std::string& stage) {
     const std::optional<Instant> common = stage == "first"    ? std::optional(a.first_due)
                                           : stage == "review" ? a.review_due
                                                               : a.final_due;
@@ -316,10 +316,15 @@ Instant due_for(Course& course, const Assignment& a, std::int64_t group, const s
         throw a.is_talk() ? InvalidArgument("{} is a talk and has no final version", a.name)
                           : InvalidArgument("{} is a lab and has no final version", a.name);
     }
+    return *common;
+}
+
+Instant due_for(Course& course, const Assignment& a, std::int64_t group, const std::string& stage) {
+    const Instant common = due_of_class(a, stage);
     Rows own = course.database().query(
         "SELECT due_at FROM extensions WHERE assignment = ? AND group_id = ? AND stage = ? ORDER BY id DESC LIMIT 1",
         a.id, group, stage);
-    return own.next() ? own.optional_integer(0).value_or(*common) : *common;
+    return own.next() ? own.optional_integer(0).value_or(common) : common;
 }
 
 bool is_held(Course& course, const Assignment& a, std::int64_t group, std::optional<std::int64_t> pair) {

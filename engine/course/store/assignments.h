@@ -91,6 +91,8 @@ Costs costs_of(const std::string& text);
 /// Throws InvalidArgument for an empty reason.
 void refuse_without_reason(const std::string& reason);
 
+/// The deadline of all. Throws InvalidArgument for a stage that the assignment does not have.
+Instant due_of_class(const Assignment& assignment, const std::string& stage);
 /// The deadline of a group, extended or not. Throws InvalidArgument for a stage that the assignment does not have.
 Instant due_for(Course& course, const Assignment& assignment, std::int64_t group, const std::string& stage);
 

@@ -67,7 +67,8 @@ void refuse_odd_group(const std::string& name) {
 
 class Import {
   public:
-    Import(Course& course, const Roster& roster) : course_(course), db_(course.database()), roster_(roster) {}
+    Import(Course& course, const Roster& roster, Instant now)
+        : course_(course), db_(course.database()), roster_(roster), now_(now) {}
 
     RosterChange run() {
         Transaction transaction(db_);
@@ -85,9 +86,9 @@ class Import {
         for (const Student& known : students_of(course_))
             if (!present.contains(known.id)) change_.absent.push_back(known.id);
         change_.students = static_cast<int>(roster_.students().size());
-        if (change_.new_students + change_.changed + change_.moved > 0)
+        if (change_.new_students + change_.changed + std::ssize(change_.moved) > 0)
             course_.note(fmt::format("roster imported: {} students, {} new, {} changed, {} moved", change_.students,
-                                     change_.new_students, change_.changed, change_.moved),
+                                     change_.new_students, change_.changed, change_.moved.size()),
                          now_);
         transaction.commit();
         return change_;
@@ -147,18 +148,26 @@ class Import {
 
     void move(const Student& student) {
         std::set<std::int64_t> requested, present;
-        for (Rows rows = db_.query("SELECT group_id FROM memberships WHERE student = ? AND until IS NULL", student.id);
+        std::vector<std::string> from;
+        for (Rows rows = db_.query("SELECT m.group_id, g.name FROM memberships m JOIN groups g ON g.id = m.group_id "
+                                   "WHERE m.student = ? AND m.until IS NULL ORDER BY g.name",
+                                   student.id);
              rows.next();)
-            present.insert(rows.integer(0));
+            present.insert(rows.integer(0)), from.push_back(rows.text(1));
         if (!roster_.has("group") && !present.empty()) return;
         for (const std::string& name : names_in(student.group.empty() ? student.id : student.group))
             requested.insert(group(name));
         if (requested == present) return;
-        if (!present.empty()) ++change_.moved;
+        if (!present.empty())
+            change_.moved.push_back({student.id, fmt::format("{}", fmt::join(from, "|")),
+                                     student.group.empty() ? student.id : student.group});
         for (const std::int64_t id : present)
             if (!requested.contains(id))
-                db_.run("UPDATE memberships SET until = ? WHERE student = ? AND group_id = ? AND until IS NULL", now_,
-                        student.id, id);
+                // A first membership was there before the roster that says so: `since` may come after `now_`.
+                db_.run(
+                    "UPDATE memberships SET until = ?1, since = min(since, ?1 - 1) WHERE student = ?2 AND group_id "
+                    "= ?3 AND until IS NULL",
+                    now_, student.id, id);
         for (const std::int64_t id : requested)
             if (!present.contains(id))
                 // Back within the second of having left: the same membership.
@@ -171,7 +180,7 @@ class Import {
     const Roster& roster_;
     std::vector<std::string> groups_before_;
     std::set<std::string> in_file_;  ///< names of groups in lower-case letters
-    const Instant now_ = CourseClock::now();
+    const Instant now_;
     RosterChange change_;
 };
 
@@ -267,7 +276,7 @@ std::vector<Student> students_of(Course& course) {
     return students;
 }
 
-RosterChange import_roster(Course& course, const std::filesystem::path& file, bool no_groups) {
+RosterChange import_roster(Course& course, const std::filesystem::path& file, bool no_groups, Instant now) {
     const Roster roster(file);
     if (roster.students().empty())
         throw EnvironmentError("{}: the file has no students below the header", file.string());
@@ -276,7 +285,7 @@ RosterChange import_roster(Course& course, const std::filesystem::path& file, bo
             "{}: the column \"group\" is missing; the columns are {}. Known columns are \"id\", \"name\", \"group\", "
             "\"email\" (or \"mail\"), \"moodle\" and \"canvas\". Give --no-groups if each student works alone",
             file.string(), listed(roster.columns()));
-    RosterChange change = Import(course, roster).run();
+    RosterChange change = Import(course, roster, now).run();
     change.unknown_columns = roster.unknown_columns();
     change.short_ids = numbers_too_short(roster.students());
     change.converted = roster.converted();

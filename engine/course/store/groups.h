@@ -35,7 +35,11 @@ std::vector<std::string> members_at(Course& course, std::int64_t group, Instant 
 std::vector<Student> students_of(Course& course);
 
 struct RosterChange {
-    int students = 0, new_students = 0, changed = 0, moved = 0, new_groups = 0;
+    struct Move {
+        std::string student, from, to;  ///< id; names of groups, joined by |
+    };
+    int students = 0, new_students = 0, changed = 0, new_groups = 0;
+    std::vector<Move> moved;
     std::vector<std::string> absent;           ///< ids of students who are not in the file; they stay
     std::vector<std::string> unknown_columns;  ///< that were not read
     Message short_ids;                         ///< a sentence about ids that are too short to search for
@@ -46,8 +50,9 @@ struct RosterChange {
 /// without a group forms a group alone; a student in several groups has them joined by "|". A student with a new group
 /// leaves the former one; both stay known, so that no student reviews work of a former group. With `no_groups` the
 /// column group may be missing: a new student then forms a group alone. Otherwise a missing column throws
-/// EnvironmentError.
-RosterChange import_roster(Course& course, const std::filesystem::path& file, bool no_groups = false);
+/// EnvironmentError. `now`: from when the memberships count.
+RosterChange import_roster(Course& course, const std::filesystem::path& file, bool no_groups = false,
+                           Instant now = CourseClock::now());
 
 /// The group has dropped out, or is back. Its work stays. Throws InvalidArgument where that was so before.
 void set_group_dropped_out(Course& course, const std::string& name, bool dropped_out, const std::string& reason);

@@ -87,6 +87,13 @@ LabMark mark_of(const Assignment& assignment, const GradedVersion& version, cons
     return mark;
 }
 
+/// Withdrawn or not.
+bool submitted_anything(Course& course, const Assignment& assignment, std::int64_t group) {
+    return course.database()
+        .query("SELECT 1 FROM versions WHERE assignment = ? AND group_id = ? AND stage = 'first'", assignment.id, group)
+        .next();
+}
+
 /// Whether a version counts instead of one that came before. One without marks never counts before one with marks.
 bool counts_before(const LabMark& later, const LabMark& earlier, bool newest_counts) {
     const auto merit = [](const LabMark& one) {
@@ -265,6 +272,8 @@ std::vector<LabMark> lab_marks(Course& course, const Assignment& assignment, con
         given.insert(of_group[group].begin(), of_group[group].end());
         return given;
     };
+    std::vector<CheckPoints> without_points = newest_checks(course, assignment);
+    for (CheckPoints& check : without_points) check.earned = 0, check.graded = true;
     std::map<std::int64_t, LabMark> marks;
     double possible = 0;
     for (const GradedVersion& version : graded_versions(course, assignment)) {
@@ -279,7 +288,9 @@ std::vector<LabMark> lab_marks(Course& course, const Assignment& assignment, con
             GradedVersion nothing;
             nothing.group = group;
             const MarksByItem given = given_to(group, 0);
-            if (given.contains(kWholeItem)) marks.try_emplace(group, mark_of(assignment, nothing, given));
+            if (!submitted_anything(course, assignment, group)) nothing.checks = without_points;
+            if (nothing.checks || given.contains(kWholeItem))
+                marks.try_emplace(group, mark_of(assignment, nothing, given));
         }
     for (auto& [group, mark] : marks)
         if (mark.by_hand && mark.possible == 0) mark.possible = possible;

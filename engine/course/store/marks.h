@@ -99,7 +99,8 @@ struct LabMark {
                                       ///< confirmed; nothing before a check is graded
     std::optional<double> percent() const;
 };
-/// Of each group that submitted something or has a mark. `student`: with the marks of this student alone. `versions`:
+/// Of each group that submitted something or has a mark; of one that never submitted anything, checks without a mark
+/// count 0. `student`: with the marks of this student alone. `versions`:
 /// ids of those that are considered; default all that are not withdrawn.
 std::vector<LabMark> lab_marks(Course& course, const Assignment& assignment, const std::string& student = "",
                                const std::set<std::int64_t>* versions = nullptr);

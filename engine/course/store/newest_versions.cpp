@@ -13,6 +13,21 @@ std::optional<ValidFile> file_in(Rows rows) {
                      rows.text(4),    rows.text(5),    rows.integer(6)};
 }
 
+/// When each group first submitted something, by group: what is not withdrawn, and what is.
+struct FirstSubmissions {
+    std::map<std::int64_t, Instant> submitted, withdrawn;
+};
+FirstSubmissions first_submissions(Course& course, const Assignment& assignment) {
+    FirstSubmissions first;
+    for (Rows rows = course.database().query("SELECT group_id, withdrawn, min(received_at) FROM arrived WHERE "
+                                             "assignment = ? AND stage = 'first' AND group_id IS NOT NULL GROUP BY "
+                                             "group_id, withdrawn",
+                                             assignment.id);
+         rows.next();)
+        (rows.integer(1) != 0 ? first.withdrawn : first.submitted)[rows.integer(0)] = rows.integer(2);
+    return first;
+}
+
 }  // namespace
 
 std::map<std::int64_t, std::map<std::string, SubmittedParts>> newest_versions(Course& course,
@@ -50,13 +65,7 @@ std::vector<FileNotTaken> files_not_taken(Course& course, const Assignment& assi
 }
 
 std::map<std::string, std::int64_t> author_groups(Course& course, const Assignment& assignment) {
-    std::map<std::int64_t, Instant> submitted, withdrawn;
-    for (Rows rows = course.database().query("SELECT group_id, withdrawn, min(received_at) FROM arrived WHERE "
-                                             "assignment = ? AND stage = 'first' AND group_id IS NOT NULL GROUP BY "
-                                             "group_id, withdrawn",
-                                             assignment.id);
-         rows.next();)
-        (rows.integer(1) != 0 ? withdrawn : submitted)[rows.integer(0)] = rows.integer(2);
+    const auto [submitted, withdrawn] = first_submissions(course, assignment);
     std::map<std::string, std::int64_t> authors, of_withdrawn, present;
     // The group of several that counts comes last: a present one, the first by name.
     for (Rows rows = course.database().query(
@@ -68,7 +77,7 @@ std::map<std::string, std::int64_t> author_groups(Course& course, const Assignme
         const std::int64_t group = rows.integer(1);
         const std::optional<Instant> until = rows.optional_integer(3);
         if (!until) present[student] = group;
-        for (const auto& [times, groups] : {std::pair(&submitted, &authors), {&withdrawn, &of_withdrawn}}) {
+        for (const auto& [times, groups] : {std::pair(&submitted, &authors), std::pair(&withdrawn, &of_withdrawn)}) {
             const auto at = times->find(group);
             if (at == times->end() || (until && *until <= at->second)) continue;
             if (rows.integer(2) <= at->second || rows.integer(4) != 0) (*groups)[student] = group;
@@ -77,6 +86,20 @@ std::map<std::string, std::int64_t> author_groups(Course& course, const Assignme
     authors.merge(of_withdrawn);
     authors.merge(present);
     return authors;
+}
+
+std::vector<Group> groups_of_authors(Course& course, const Assignment& assignment) {
+    const auto authors = author_groups(course, assignment);
+    FirstSubmissions first = first_submissions(course, assignment);
+    first.submitted.merge(first.withdrawn);
+    std::vector<Group> groups = groups_of(course);
+    for (Group& group : groups) {
+        if (const auto at = first.submitted.find(group.id); at != first.submitted.end())
+            group.members = members_at(course, group.id, at->second);
+        else
+            std::erase_if(group.members, [&](const std::string& id) { return authors.at(id) != group.id; });
+    }
+    return groups;
 }
 
 std::optional<ValidFile> newest_file(Course& course, const Assignment& assignment, std::int64_t group,

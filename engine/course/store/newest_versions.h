@@ -4,6 +4,7 @@
 #include <string>
 
 #include "course/store/assignments.h"
+#include "course/store/groups.h"
 
 namespace dynlab::inline course {
 
@@ -28,6 +29,8 @@ std::map<std::int64_t, std::map<std::string, SubmittedParts>> newest_versions(Co
 /// it first submitted, else the one when it submitted what is withdrawn now, else the student's group now. The first
 /// membership of a student counts from the beginning.
 std::map<std::string, std::int64_t> author_groups(Course& course, const Assignment& assignment);
+/// The groups as groups_of() has them, with the members whose work of the assignment is that of the group.
+std::vector<Group> groups_of_authors(Course& course, const Assignment& assignment);
 
 /// A file whose owner or place is unknown, until the instructor assigns it or a later file.
 struct FileNotTaken {
