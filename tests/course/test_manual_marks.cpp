@@ -181,5 +181,27 @@ TEST(manual_marks, of_an_unreadable_work_reach_feedback_and_gradebook) {
     EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr(",group-9.rar,graded,4,5,0,"));
 }
 
+// oracle: the roster; the number that the platform gave Anna is in the name of her folder
+TEST(manual_marks, of_students_on_the_roster_reach_the_gradebook_by_any_name) {
+    GradingBench bench("--   x: number\n", "check{id = 'x', points = 5, test = function(a) return near(a.x, 42) end}\n",
+                       "answer('x', 42)\n");
+    const Workbench& work = bench.bench();
+    work.write("roster.csv", "id,name,group\n1,Anna Lovelace,\n9,Bo Linwood,group-9\n");
+    bench.submit_file("Anna Lovelace_900001_assignsubmission_file_", "answer('x', 1)\n");
+    work.write("in/group-9.rar", "Rar!");
+    // The instructor writes the file anew each time, with other names for the same work.
+    for (const auto& [anna, bo] : {std::pair("900001", "9"),
+                                   {"Anna Lovelace", "group-9.rar"},
+                                   {"1", "Group 9"},
+                                   {"Anna Lovelace_900001_assignsubmission_file_", "group-9.rar"}}) {
+        work.write("out/marks.csv", std::string("who,check,points,reason\n") + anna + ",x,3,\n" + bo + ",*,4,desk\n");
+        bench.grade({"--roster", "roster.csv"});
+        EXPECT_THAT(work.read("out/gradebook.csv"),
+                    AllOf(HasSubstr("1,Anna Lovelace,Anna Lovelace_900001_assignsubmission_file_,graded,3,5,"),
+                          HasSubstr("9,Bo Linwood,group-9.rar,graded,4,5,")))
+            << anna << " " << bo;
+    }
+}
+
 }  // namespace test_manual_marks
 }  // namespace dynlab::test

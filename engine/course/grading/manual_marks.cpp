@@ -8,7 +8,6 @@
 
 #include "course/checks/check_run.h"
 #include "course/grading/feedback.h"
-#include "course/intake/owners.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 
@@ -34,60 +33,47 @@ void put_aside(const fs::path& file) {
     fs::rename(file, aside, ignored);
 }
 
-/// Finds what a row is about.
-class MarkedItems {
-  public:
-    explicit MarkedItems(const ClassWork& work) : work_(work), owners_(work.students) {}
-
-    struct Found {
-        std::vector<const WorkItem*> items;
-        Message error_reason;  ///< a clause, where there are none; empty for someone who submitted nothing
-    };
-    Found find(const std::string& who) const {
-        Found found;
-        if (who.empty()) {
-            found.error_reason = Message("the row has points but no name; fill in the column \"who\"");
-            return found;
-        }
-        const auto take = [&](const auto& fits) {
-            for (const WorkItem& item : work_.items)
-                if (fits(item)) found.items.push_back(&item);
-        };
-        take([&](const WorkItem& item) {
-            return item.submission.name == who || item.submission.path.filename() == who;
-        });
-        if (!found.items.empty()) return found;
-        const Owners::Found owner = owners_.called(who);
-        take([&](const WorkItem& item) {
-            return item.submission.lms_id == who || item.submission.person == who ||
-                   (owner.anybody() &&
-                    (item.students == owner.students || (!owner.group.empty() && item.group == owner.group)));
-        });
-        std::set<std::string> owners;  // a platform's number may be the id of another student
-        for (const WorkItem* item : found.items) owners.insert(owner_of(*item));
-        if (owners.size() > 1 || owner.doubtful) {
-            const std::vector<std::string> names(owners.begin(), owners.end());
-            found.error_reason = owner.doubtful ? Message("\"{}\" is ambiguous: {}", who, owner.error_reason)
-                                                : Message("\"{}\" is ambiguous: {}", who, base::listed(names));
-            found.items.clear();
-        } else if (found.items.empty()) {
-            if (!owner.anybody()) found.error_reason = Message("no submission, group or student is named \"{}\"", who);
-        }
-        return found;
-    }
-
-  private:
-    static std::string owner_of(const WorkItem& item) {
-        if (!item.addressee.empty() && !item.students.empty()) return item.addressee;
-        return item.submission.person.empty() ? item.submission.name
-                                              : item.submission.person + " (" + item.submission.lms_id + ")";
-    }
-
-    const ClassWork& work_;
-    Owners owners_;
-};
+std::string owner_of(const WorkItem& item) {
+    if (!item.addressee.empty() && !item.students.empty()) return item.addressee;
+    return item.submission.person.empty() ? item.submission.name
+                                          : item.submission.person + " (" + item.submission.lms_id + ")";
+}
 
 }  // namespace
+
+MarkedItems::Found MarkedItems::find(const std::string& who) const {
+    Found found;
+    if (who.empty()) {
+        found.error_reason = Message("the row has points but no name; fill in the column \"who\"");
+        return found;
+    }
+    const auto take = [&](const auto& fits) {
+        for (const WorkItem& item : work_.items)
+            if (fits(item)) found.items.push_back(&item);
+    };
+    take([&](const WorkItem& item) { return item.submission.name == who; });
+    if (found.items.empty()) take([&](const WorkItem& item) { return item.submission.path.filename() == who; });
+    if (found.items.size() > 1) found.items.clear();  // files of one name in several folders
+    found.by_name = !found.items.empty();
+    if (found.by_name) return found;
+    const Owners::Found owner = owners_.called(who);
+    take([&](const WorkItem& item) {
+        return item.submission.lms_id == who || item.submission.person == who ||
+               (owner.anybody() &&
+                (item.students == owner.students || (!owner.group.empty() && item.group == owner.group)));
+    });
+    std::set<std::string> owners;  // a platform's number may be the id of another student
+    for (const WorkItem* item : found.items) owners.insert(owner_of(*item));
+    if (owners.size() > 1 || owner.doubtful) {
+        const std::vector<std::string> names(owners.begin(), owners.end());
+        found.error_reason = owner.doubtful ? Message("\"{}\" is ambiguous: {}", who, owner.error_reason)
+                                            : Message("\"{}\" is ambiguous: {}", who, base::listed(names));
+        found.items.clear();
+    } else if (found.items.empty() && !owner.anybody()) {
+        found.error_reason = Message("no submission, group or student is named \"{}\"", who);
+    }
+    return found;
+}
 
 MarksFile::MarksFile(const fs::path& results) : file_(results / kMarksFile) {
     if (!fs::exists(file_)) write_file_atomically(file_, csv_text({{"who", "check", "points", "reason"}, {}, {}}));

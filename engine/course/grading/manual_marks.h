@@ -7,6 +7,7 @@
 
 #include "course/grading/grade.h"
 #include "course/grading/work_item.h"
+#include "course/intake/owners.h"
 #include "data_io/text_table.h"
 
 namespace dynlab::inline course {
@@ -49,6 +50,23 @@ class MarksFile {
     TextTable table_;
     std::size_t who_ = 0, check_ = 0, points_ = 0, reason_ = 0;
     std::vector<Row> rows_;
+};
+
+/// Finds what a row is about.
+class MarkedItems {
+  public:
+    explicit MarkedItems(const ClassWork& work) : work_(work), owners_(work.students) {}
+
+    struct Found {
+        std::vector<const WorkItem*> items;
+        bool by_name = false;  ///< `who` is the name of a submission; else it means all those of an owner
+        Message error_reason;  ///< a clause, where there are none; empty for someone who submitted nothing
+    };
+    Found find(const std::string& who) const;
+
+  private:
+    const ClassWork& work_;
+    Owners owners_;
 };
 
 /// What these rows say of the submissions of a class. They replace what the checks gave and survive every regrade.

@@ -29,10 +29,12 @@ class MarksInForce {
     }
     /// That of a version, or else of all versions of its group; null where there is none.
     const GivenMark* of(const CourseWork::Marked& marked, const std::string& check) const {
-        for (const std::int64_t version : {marked.version, std::int64_t{0}})
-            if (const auto found = marks_.find({{marked.group, version}, check}); found != marks_.end())
-                return &found->second;
-        return nullptr;
+        const GivenMark* const own = exactly(marked, check);
+        return own != nullptr ? own : exactly({marked.group, 0}, check);
+    }
+    const GivenMark* exactly(const CourseWork::Marked& marked, const std::string& check) const {
+        const auto found = marks_.find({marked, check});
+        return found == marks_.end() ? nullptr : &found->second;
     }
 
   private:
@@ -66,13 +68,14 @@ class JoinedMarks {
 void take_back_lost_rows(Course& course, const Assignment& assignment, const CourseWork& work, const MarksFile& file,
                          const MarksInForce& before) {
     std::set<std::pair<CourseWork::Marked, std::string>> written;
+    const MarkedItems items(work.work());
     for (const MarksFile::Row& row : file.rows())
-        if (const auto marked = work.marked_by(course, row.who); marked && row.points)
+        if (const auto marked = CourseWork::marked_by(course, items, row.who); marked && row.points)
             written.insert({*marked, row.check});
     for (const GivenMark& mark : marks_in_force(course, assignment)) {
         const CourseWork::Marked marked{mark.group, mark.version};
-        if (!mark.student.empty() || written.contains({marked, mark.item}) || before.of(marked, mark.item) == nullptr ||
-            work.names_of(mark.group, mark.version).empty())
+        if (!mark.student.empty() || written.contains({marked, mark.item}) ||
+            before.exactly(marked, mark.item) == nullptr || work.names_of(mark.group, mark.version).empty())
             continue;
         give_mark(course, assignment, {mark.group, "", mark.item, {}, "its row was removed", mark.version},
                   CourseClock::now());
@@ -113,29 +116,34 @@ class ChangedRows {
 void join_rows(Course& course, const Assignment& assignment, const CourseWork& work,
                const std::map<std::string, double>& max_points, const fs::path& results, bool file_alone) {
     MarksFile file(results);
+    const MarkedItems items(work.work());
     const JoinedMarks joined(course, assignment);
     Transaction transaction(course.database());  // a mark that a command gives meanwhile comes with the next join
     const std::optional<std::int64_t> last = joined.last();
     const MarksInForce before(last ? marks_in_force(course, assignment, last) : std::vector<GivenMark>());
+    if (file_alone) take_back_lost_rows(course, assignment, work, file, before);
     const MarksInForce now(marks_in_force(course, assignment));
     std::vector<std::pair<MarksFile::Row, CourseWork::Marked>> known;
     ChangedRows changed(results);
     for (const MarksFile::Row& row : file.rows()) {
-        const auto marked = work.marked_by(course, row.who);
+        const auto marked = CourseWork::marked_by(course, items, row.who);
         const auto points = max_points.find(row.check);
         if (!marked || points == max_points.end() || row.points > points->second)
             continue;  // complained of by the grading
         if (file_alone && !row.points) continue;
         known.emplace_back(row, *marked);
-        const GivenMark *const given = now.of(*marked, row.check), *const common = before.of(*marked, row.check);
-        if (!row.points || says(row, given) || says(row, common)) continue;
+        // In a file alone, each row is a mark. A row of a group that was taken out also takes back what rows of its
+        // versions say; they give it again.
+        const auto of = file_alone ? &MarksInForce::exactly : &MarksInForce::of;
+        const GivenMark *const given = (now.*of)(*marked, row.check), *const common = (before.*of)(*marked, row.check);
+        if (!row.points || says(row, given)) continue;
+        if (says(row, common) && (given != nullptr || !file_alone)) continue;
         changed.refuse_contradiction(*marked, row);
         const bool given_since = given != nullptr && (common == nullptr || given->id != common->id);
         if (given_since && !file_alone) changed.refuse_other_than(*given, row);
         give_mark(course, assignment, {marked->group, "", row.check, row.points, row.reason, marked->version},
                   CourseClock::now());
     }
-    if (file_alone) take_back_lost_rows(course, assignment, work, file, before);
     const std::vector<GivenMark> in_force = marks_in_force(course, assignment);
     Rows newest = course.database().query("SELECT max(id) FROM marks WHERE assignment = ?", assignment.id);
     const std::int64_t last_now = newest.next() ? newest.optional_integer(0).value_or(0) : 0;

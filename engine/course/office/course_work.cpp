@@ -168,11 +168,15 @@ std::vector<const WorkItem*> CourseWork::waiting() const {
     return items;
 }
 
-std::optional<CourseWork::Marked> CourseWork::marked_by(Course& course, const std::string& who) const {
-    for (const WorkItem& item : work_.items)
-        if (item.submission.name == who)
-            return item.version == 0 ? std::nullopt : std::optional(Marked{item.group_id, item.version});
-    if (who.empty()) return {};
+std::optional<CourseWork::Marked> CourseWork::marked_by(Course& course, const MarkedItems& items,
+                                                        const std::string& who) {
+    const MarkedItems::Found found = items.find(who);
+    if (!found.error_reason.empty()) return {};
+    if (!found.items.empty()) {
+        const WorkItem& item = *found.items.front();
+        if (item.group_id == 0) return {};  // it could not be kept
+        return Marked{item.group_id, found.by_name ? item.version : 0};
+    }
     try {
         return Marked{group_named(course, who).id, 0};
     } catch (const InvalidArgument&) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "course/grading/manual_marks.h"
 #include "course/grading/work_item.h"
 #include "course/office/receive_class.h"
 #include "course/store/marks.h"
@@ -34,7 +35,7 @@ class CourseWork {
         std::int64_t group = 0, version = 0;
         auto operator<=>(const Marked&) const = default;
     };
-    std::optional<Marked> marked_by(Course& course, const std::string& who) const;
+    static std::optional<Marked> marked_by(Course& course, const MarkedItems& items, const std::string& who);
     /// Names under which a mark is in marks.csv: of its version, of each version of its group, or of the group where it
     /// submitted nothing.
     std::vector<std::string> names_of(std::int64_t group, std::int64_t version) const;

@@ -47,7 +47,9 @@ std::vector<GradedVersion> graded_versions(Course& course, const Assignment& ass
     for (Rows rows = course.database().query(
              "SELECT s.id, s.group_id, s.number, s.late, (SELECT r.checks FROM results r WHERE r.version = s.id ORDER "
              "BY r.id DESC LIMIT 1), EXISTS (SELECT 1 FROM arrivals a WHERE a.version = s.id) FROM standing s WHERE "
-             "s.assignment = ? AND s.stage = 'first' AND s.part IN ('script', 'pack') ORDER BY s.received_at, s.id",
+             "s.assignment = ? AND s.stage = 'first' AND s.part IN ('script', 'pack', 'unreadable') AND s.group_id IS "
+             "NOT NULL "
+             "ORDER BY s.received_at, s.id",
              assignment.id);
          rows.next();) {
         GradedVersion version{rows.integer(0), rows.integer(1),      rows.integer(2),
