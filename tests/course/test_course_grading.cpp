@@ -56,16 +56,23 @@ class course_grading : public ::testing::Test {
 TEST_F(course_grading, lab_is_graded_marked_extended_and_totalled) {
     submit("Kim Min-jun", kSolution, "2026-02-27 12:00");
     submit("Group 2", kSolution, "2026-03-01 13:00");
+    const auto next = [&] {
+        const std::string status = done({"status", "lab4", "--at", "2026-03-02 12:00"});
+        return status.substr(std::min(status.find("Next: "), status.size()));
+    };
+    EXPECT_EQ(next(), "Next: dynlab course grade lab4\n");
     EXPECT_EQ(grade().exit_code, 1) << "q is not marked yet";
+    EXPECT_EQ(next(), "Next: enter the missing marks in k/marks/lab4/marks.csv, then dynlab course grade lab4\n");
     EXPECT_THAT(work().read("k/marks/lab4/marks.csv"),
                 AllOf(HasSubstr("group-01,q,,,4,The reason,two reasons"), HasSubstr("group-02,q,,")));
-    EXPECT_THAT(done({"status", "lab4", "--at", "2026-03-02 12:00"}), HasSubstr("Next: dynlab course grade lab4"));
     // One mark by command, one in the file; each reaches the other's place.
     done({"mark", "lab4", "Élise Petit", "q", "3", "--reason", "one reason"});
+    EXPECT_EQ(next(), "Next: dynlab course grade lab4\n");
     std::string rows = work().read("k/marks/lab4/marks.csv");
     rows.replace(rows.find("group-02,q,,"), 12, "group-02,q,4,");
     work().write("k/marks/lab4/marks.csv", rows);
     EXPECT_EQ(grade().exit_code, 0);
+    EXPECT_EQ(next(), "Next: dynlab export-grades k/marks/lab4\n");
     EXPECT_THAT(work().read("k/marks/lab4/marks.csv"), HasSubstr("group-01,q,3,one reason"));
     EXPECT_THAT(book(), AllOf(HasSubstr("221,Kim Min-jun,group-01,graded,5,6,0,"),
                               HasSubstr("222,Élise Petit,group-01,graded,5,6,0,"),

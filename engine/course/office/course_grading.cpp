@@ -47,22 +47,9 @@ bool says(const MarksFile::Row& row, const GivenMark* mark) {
     return points_text(*row.points) == points_text(*mark->points) && row.reason == mark->reason;
 }
 
-/// Up to which mark file and store were brought together.
-class JoinedMarks {
-  public:
-    JoinedMarks(Course& course, const Assignment& assignment)
-        : course_(course), setting_(fmt::format("marks joined {}", assignment.id)) {}
-    std::optional<std::int64_t> last() const { return read_number<std::int64_t>(course_.saved_entry(setting_)); }
-    void note(std::int64_t mark) const {
-        Transaction transaction(course_.database());
-        course_.save_entry(setting_, std::to_string(mark));
-        transaction.commit();
-    }
-
-  private:
-    Course& course_;
-    std::string setting_;
-};
+std::string joined_setting(const Assignment& assignment) {
+    return fmt::format("marks joined {}", assignment.id);
+}
 
 /// A mark whose row the instructor took out of the file, or emptied, is in force no more.
 void take_back_lost_rows(Course& course, const Assignment& assignment, const CourseWork& work, const MarksFile& file,
@@ -117,9 +104,8 @@ void join_rows(Course& course, const Assignment& assignment, const CourseWork& w
                const std::map<std::string, double>& max_points, const fs::path& results, bool file_alone) {
     MarksFile file(results);
     const MarkedItems items(work.work());
-    const JoinedMarks joined(course, assignment);
     Transaction transaction(course.database());  // a mark that a command gives meanwhile comes with the next join
-    const std::optional<std::int64_t> last = joined.last();
+    const std::optional<std::int64_t> last = newest_joined_mark(course, assignment);
     const MarksInForce before(last ? marks_in_force(course, assignment, last) : std::vector<GivenMark>());
     if (file_alone) take_back_lost_rows(course, assignment, work, file, before);
     const MarksInForce now(marks_in_force(course, assignment));
@@ -160,7 +146,9 @@ void join_rows(Course& course, const Assignment& assignment, const CourseWork& w
             for (const std::string& name : work.names_of(mark.group, mark.version))
                 missing.push_back({0, name, mark.item, mark.points, mark.reason});
     file.add(missing);
-    joined.note(last_now);
+    Transaction joined(course.database());
+    course.save_entry(joined_setting(assignment), std::to_string(last_now));
+    joined.commit();
 }
 
 }  // namespace
@@ -191,6 +179,10 @@ std::vector<CountedMark> counted_marks(Course& course, const Assignment& assignm
 
 fs::path results_folder(const Course& course, const Assignment& assignment) {
     return course.folder() / "marks" / assignment.name;
+}
+
+std::optional<std::int64_t> newest_joined_mark(Course& course, const Assignment& assignment) {
+    return read_number<std::int64_t>(course.saved_entry(joined_setting(assignment)));
 }
 
 std::optional<ResultsCourse> course_of_results(const fs::path& results) {

@@ -32,6 +32,9 @@ struct ResultsCourse {
 };
 std::optional<ResultsCourse> course_of_results(const std::filesystem::path& results);
 
+/// Id of the newest mark when marks.csv and the store were last brought together; nothing before the first time.
+std::optional<std::int64_t> newest_joined_mark(Course& course, const Assignment& assignment);
+
 // Its steps, which folder_grading.h takes too.
 
 /// The secret from which hidden data sets are generated. Throws EnvironmentError if the file is missing or empty.

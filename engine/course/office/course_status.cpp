@@ -7,6 +7,8 @@
 #include <set>
 
 #include "base/reader.h"
+#include "course/grading/manual_marks.h"
+#include "course/office/course_grading.h"
 #include "course/review/review_pairs.h"
 #include "course/store/assignments.h"
 #include "course/store/groups.h"
@@ -334,12 +336,28 @@ class Status {
         return message_text(sums) + "\n";
     }
 
+    /// Grading is due for files without a result, and for marks that the feedback does not show yet.
+    std::string next_for_lab(const std::string& grade) const {
+        Rows open = course_.database().query(
+            "SELECT EXISTS (SELECT 1 FROM standing s WHERE s.assignment = ?1 AND s.stage = 'first' AND s.part IN "
+            "('script', 'pack') AND NOT EXISTS (SELECT 1 FROM results r WHERE r.version = s.id)), (SELECT "
+            "ifnull(max(id), 0) FROM marks WHERE assignment = ?1)",
+            assignment_.id);
+        open.next();
+        if (open.integer(0) != 0 || open.integer(1) > newest_joined_mark(course_, assignment_).value_or(0))
+            return grade;
+        const std::string results = std::filesystem::proximate(results_folder(course_, assignment_)).string();
+        if (std::ranges::any_of(labs_, [](const LabMark& mark) { return mark.by_checks && !mark.earned; }))
+            return fmt::format("enter the missing marks in {}/{}, then {}", results, kMarksFile, grade);
+        return fmt::format("dynlab export-grades {}", results);
+    }
+
     std::string next_step() const {
         const auto command = [&](const char* words) {
             return fmt::format("dynlab course {} {}", words, assignment_.name);
         };
         if (present_ == 0) return fmt::format("dynlab course submit FILE... --assignment {}", assignment_.name);
-        if (assignment_.is_lab()) return command("grade");
+        if (assignment_.is_lab()) return next_for_lab(command("grade"));
         if (!assignment_.is_report()) return command("scores --sheet");
         if (now_ <= assignment_.first_due + assignment_.grace) return {};
         if (pairs_.empty() || unassigned_ > 0) return command("review assign");
