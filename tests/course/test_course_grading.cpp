@@ -164,6 +164,12 @@ TEST_F(course_grading, a_student_who_moves_keeps_the_work_and_the_files_of_the_f
     EXPECT_EQ(grade().exit_code, 0);
     EXPECT_THAT(book(), AllOf(HasSubstr("222,Élise Petit,group-01,graded,5,6,"),
                               HasSubstr("223,Max Mustermann,group-02 v2,graded,1,6,")));
+    std::string rows = work().read("k/marks/lab4/marks.csv");
+    work().write("k/marks/lab4/marks.csv", rows + "222,q,2,again\n");
+    const ChildResult corrected = grade();
+    EXPECT_EQ(corrected.exit_code, 0) << corrected.error_output;
+    EXPECT_THAT(book(), AllOf(HasSubstr("222,Élise Petit,group-01,graded,4,6,"),
+                              HasSubstr("223,Max Mustermann,group-02 v2,graded,1,6,")));
     done({"deliver", "lab4", "--out", "monday"});
     EXPECT_THAT(work().read("monday/mail.csv"),
                 AllOf(HasSubstr("222,Élise Petit,group-01,"), Not(HasSubstr("222,Élise Petit,group-02,"))));

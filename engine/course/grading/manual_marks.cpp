@@ -10,6 +10,7 @@
 #include "course/grading/feedback.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
+#include "platform/text/small_letters.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -41,6 +42,18 @@ std::string owner_of(const WorkItem& item) {
 
 }  // namespace
 
+/// Whose work it was when it was submitted, not that of the group now.
+std::optional<std::size_t> MarkedItems::student_called(const std::string& who) const {
+    std::vector<std::size_t> named;
+    for (std::size_t place = 0; place < work_.students.size(); ++place) {
+        const Student& student = work_.students[place];
+        if (student.id == who) return place;
+        if (same_person(student.name, who) || (!who.empty() && in_small_letters(student.mail) == in_small_letters(who)))
+            named.push_back(place);
+    }
+    return named.size() == 1 ? std::optional(named.front()) : std::nullopt;
+}
+
 MarkedItems::Found MarkedItems::find(const std::string& who) const {
     Found found;
     if (who.empty()) {
@@ -57,10 +70,12 @@ MarkedItems::Found MarkedItems::find(const std::string& who) const {
     found.by_name = !found.items.empty();
     if (found.by_name) return found;
     const Owners::Found owner = owners_.called(who);
+    const std::optional<std::size_t> student = student_called(who);
     take([&](const WorkItem& item) {
-        return item.submission.lms_id == who || item.submission.person == who ||
-               (owner.anybody() &&
-                (item.students == owner.students || (!owner.group.empty() && item.group == owner.group)));
+        if (item.submission.lms_id == who || item.submission.person == who) return true;
+        if (student) return std::ranges::find(item.students, *student) != item.students.end();
+        return owner.anybody() &&
+               (item.students == owner.students || (!owner.group.empty() && item.group == owner.group));
     });
     std::set<std::string> owners;  // a platform's number may be the id of another student
     for (const WorkItem* item : found.items) owners.insert(owner_of(*item));

@@ -65,6 +65,8 @@ class MarkedItems {
     Found find(const std::string& who) const;
 
   private:
+    std::optional<std::size_t> student_called(const std::string& who) const;
+
     const ClassWork& work_;
     Owners owners_;
 };

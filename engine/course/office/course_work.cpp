@@ -7,6 +7,7 @@
 #include "course/grading/feedback.h"
 #include "course/grading/late_penalties.h"
 #include "course/store/inspection.h"
+#include "course/store/newest_versions.h"
 #include "numerics/error.h"
 #include "platform/error.h"
 
@@ -26,7 +27,7 @@ std::vector<CourseWork::Stored> CourseWork::read(Course& course, const Assignmen
     work_.students = lone_students_of(course);
     work_.roster = !work_.students.empty();
     work_.newest_counts = assignment.keep == "newest";
-    for (const Group& group : groups_of(course)) groups_.emplace(group.id, group);
+    for (const Group& group : groups_of_authors(course, assignment)) groups_.emplace(group.id, group);
     given_ = marks_in_force(course, assignment);
     std::vector<Stored> versions;
     for (Rows rows = course.database().query(
@@ -118,7 +119,7 @@ void CourseWork::add(Course& course, const Stored& version, const Assignment& as
         item.unreadable = version.reason.empty() ? Message("The submitted file cannot be read.") : version.reason;
     item.submission.archive = pack;
     if (!pack) item.submission.loose = {{copy, "analysis.lua"}};
-    const std::vector<std::string> members = members_at(course, group.id, item.received);
+    const std::vector<std::string>& members = group.members;
     for (std::size_t place = 0; place < work_.students.size(); ++place)
         if (std::ranges::find(members, work_.students[place].id) != members.end()) item.students.push_back(place);
     if (item.students.empty()) item.unmatched = Message("the group {} had no members at that time", group.name);
