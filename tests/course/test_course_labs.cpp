@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "base/error.h"
 #include "base/reader.h"
 #include "course/corrections/corrections.h"
 #include "course/course_bench.h"
@@ -18,6 +19,7 @@
 #include "course/store/newest_versions.h"
 #include "course/store/store_check.h"
 #include "numerics/error.h"
+#include "platform/atomic_file.h"
 
 namespace dynlab::test {
 namespace test_course_labs {
@@ -200,6 +202,27 @@ TEST(course_labs, withdrawn_work_does_not_give_a_student_the_marks_of_a_later_gr
     EXPECT_EQ(percent(), 20);  // 2 of 10 points
     course.withdraw(own);
     EXPECT_EQ(percent(), 0) << "nothing was submitted by the group that the student was in";
+}
+
+// oracle: what the message says; the folder's name is taken by a file
+TEST(course_labs, receipts_that_cannot_be_written_are_written_by_the_next_call) {
+    LabCourse course;
+    const auto place = course.course().folder() / "receipts";
+    std::filesystem::remove_all(place);
+    write_file_atomically(place, "");
+    std::string said;
+    try {
+        course.take({{"group-01.lua", "-- work\n"}}, "2026-02-01 12:00");
+    } catch (const std::exception& error) {
+        said = message_text(message_of(error));
+    }
+    EXPECT_THAT(said, AllOf(HasSubstr("the files are stored, but the receipts were not written"),
+                            HasSubstr("Run the command again")));
+    std::filesystem::remove(place);
+    const ReceiveOutcome again = course.take({{"group-01.lua", "-- work\n"}}, "2026-02-01 12:00");
+    ASSERT_EQ(again.received.size(), 1u);
+    EXPECT_TRUE(again.received.front().known);
+    EXPECT_FALSE(std::filesystem::is_empty(place / "lab4"));
 }
 
 // oracle: what the store knows of the student

@@ -85,7 +85,14 @@ class SubmissionReceiver {
         if (!outcome_.received.empty()) course_.publish_key();
         std::vector<std::int64_t> versions;
         for (const Received& one : outcome_.received) versions.push_back(one.id);
-        write_receipts(course_, versions);
+        try {
+            write_receipts(course_, versions);
+        } catch (const Interrupted&) {
+            throw;
+        } catch (const std::runtime_error& error) {
+            throw EnvironmentError("the files are stored, but the receipts were not written: {}. Run the command again",
+                                   message_of(error));
+        }
         return std::move(outcome_);
     }
 
