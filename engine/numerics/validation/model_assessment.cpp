@@ -68,8 +68,7 @@ Message model_quality_message(const ModelEvidence& model) {
             listed(model.doubts.undetermined));
     if (model.white)
         return Message(
-            "The residuals contain no further information about the system, and the standard errors of the model are "
-            "valid.");
+            "The tests show no missing dynamics, and the standard errors of the model are valid.");
     if (!model.tested)
         return Message(
             "The cause is missing dynamics or a colored disturbance: these data, without a varying input, cannot "
