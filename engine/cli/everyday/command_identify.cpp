@@ -79,10 +79,11 @@ void add_identify(CLI::App& app, Action& action) {
             [&request](const std::string& text) {
                 request.poles = number_or_auto<int>(text, "--poles", "a whole number");
             },
-            "Number of poles, or auto: srivcstruc then finds the numbers of poles and zeros")
+            "Number of poles, or auto: srivcstruc then selects the numbers of poles and zeros")
         ->type_name("N|auto")
         ->required();
-    command->add_option("--zeros", request.zeros, "Number of zeros. Default: 0; found automatically with --poles auto.")
+    command
+        ->add_option("--zeros", request.zeros, "Number of zeros. Default: 0; selected automatically with --poles auto.")
         ->type_name("N");
     command
         ->add_option_function<std::string>(
@@ -108,16 +109,18 @@ void add_identify(CLI::App& app, Action& action) {
     auto* report = command->add_option("-o,--output-file", args->report,
                                        "Report to create (.pdf, .html or .md). Default: DATA_model.pdf.");
     report->type_name("FILE");
-    command->add_flag("--script", args->script, "Only print the Lua script")->excludes(report);
+    command->add_flag("--script", args->script, "Print the Lua script instead of creating a report")->excludes(report);
     command->footer(
-        "The sampling time comes from the column --time, or from the column with a name (t, time_ms, ...) or unit of "
-        "time. The\nsteps may differ, and dynlab converts ms, min and h to seconds. Without a time column, the "
-        "sampling time comes from\n# Ts: 0.01 in a CSV file, or from the variable Ts of a MAT file. The columns of a "
-        "matrix y are named y1, y2, ...;\ndynlab inspect DATA lists the names. Missing input samples are replaced with "
-        "the previous value; missing output\nsamples are linearly interpolated. dynlab prints the summary; the report "
-        "also contains figures.\nA message such as identify.lua:35 refers to line 35 of the output of "
-        "--script.\nExample:  dynlab identify crane.csv --input u --output x,theta --poles 2 --zeros 0 --validate "
-        "second.csv");
+        "The sampling time comes from the time column: the column that --time names, or a column that has the name t "
+        "or "
+        "time_ms,\nfor example, or a unit of time. The time steps may be unequal; dynlab converts ms, min and h to "
+        "seconds. Without a time\ncolumn, the sampling time comes from the line # Ts: 0.01 of a CSV file, or from the "
+        "variable Ts of a MAT file. The\ncolumns of a matrix y have the names y1, y2, ...; dynlab inspect DATA lists "
+        "all "
+        "names. dynlab replaces missing input\nsamples with the previous value, and missing output samples by linear "
+        "interpolation. It prints a summary of each\nmodel; the report also contains figures. A message such as "
+        "identify.lua:35 refers to line 35 of the script that\n--script prints.\nExample:  dynlab identify crane.csv "
+        "--input u --output x,theta --poles 2 --zeros 0 --validate second.csv");
     command->callback([args, &action] {
         try {
             args->request.validate();

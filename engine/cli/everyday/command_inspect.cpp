@@ -35,7 +35,8 @@ int inspect(const InspectArguments& args) {
 
 void add_inspect(CLI::App& app, Action& action) {
     auto args = std::make_shared<InspectArguments>();
-    CLI::App* command = app.add_subcommand("inspect", "Inspect a data file: columns, units, sampling, gaps, a picture");
+    CLI::App* command =
+        app.add_subcommand("inspect", "Inspect a data file: columns, units, sampling time, gaps, and a picture");
     command
         ->add_option("DATA", args->data,
                      ".mat file, table (.csv, .txt, .dat, .tsv, .lvm, .xlsx), or name of a data set")
@@ -55,9 +56,9 @@ void add_inspect(CLI::App& app, Action& action) {
     command->add_option("--sheet", args->import.sheet, "Name of a workbook's sheet. Default: the first sheet.")
         ->type_name("NAME");
     command->footer(
-        "Assumptions of dynlab are listed below the first line. load in a script reads the file in the same way; its "
-        "options\n"
-        "skip, delimiter, sheet, time, names and units correct wrong assumptions.\n"
+        "dynlab lists its assumptions below the first line. In a script, load reads the file in the same way. If an "
+        "assumption is\nwrong, correct it with the options above, or with the options skip, delimiter, sheet, time, "
+        "names and units of load.\n"
         "Example:  dynlab inspect record.csv -o record.png");
     command->callback([args, &action] {
         if (args->delimiter.size() > 1)
