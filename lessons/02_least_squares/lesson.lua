@@ -189,7 +189,8 @@ report.value("rmse_later", sqrt(mean(residuals:range(2, N)^2)), "%.3f")
 --
 -- where $t_{0.975,\,N-2}$ is the quantile of Student's distribution, `tinv(0.975, N - 2)`. Compare the forecast with the actual result.
 --
--- First, enter a prediction: how far from the forecast are the limits of this interval? `outcome` prints your prediction next to the result.
+-- Before you compute the interval, predict its half-width, which is the distance from the forecast to each limit. Replace `nil` in the next cell with
+-- your prediction in seconds. After you compute the interval, `outcome("half-width of the interval", value)` prints your prediction next to the result.
 
 -- %% id=forecast_guess
 -- BEGIN SOLUTION
