@@ -165,7 +165,8 @@ std::string comments_on(const fs::path& marks, const MarkedStudent& student) {
     MessageList lines{{Message("{} of {} points.", points_in_cell(student.points), points_in_cell(student.possible))},
                       Join::kLines};
     if (!student.own_reason.empty())
-        lines.items.push_back(Message("You have a mark of your own: {}", Message::verbatim(student.own_reason)));
+        lines.items.push_back(
+            Message("Your mark differs from the mark of your group: {}", Message::verbatim(student.own_reason)));
     for (const ShownResult& one : shown) {
         if (one.earned >= one.points) continue;
         const Message line = Message("{}: {} of {}.", one.about, points_number(one.earned), points_number(one.points));

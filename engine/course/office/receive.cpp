@@ -87,8 +87,6 @@ class SubmissionReceiver {
         for (const Received& one : outcome_.received) versions.push_back(one.id);
         try {
             write_receipts(course_, versions);
-        } catch (const Interrupted&) {
-            throw;
         } catch (const std::runtime_error& error) {
             throw EnvironmentError("the files are stored, but the receipts were not written: {}. Run the command again",
                                    message_of(error));
@@ -386,17 +384,14 @@ class SubmissionReceiver {
         Received received;
         received.group = c.group.name, received.part = c.part;
         received.rules_broken = c.inspection.rules_broken, received.error_reason = c.inspection.error_reason;
-        received.names = c.inspection.names;
+        received.names = c.inspection.names, received.remark = c.remark;
         received.from_pack = c.from_pack, received.made = c.made;
-        received.remark = c.remark;
         if (!has_any(c, document_part())) received.missing = c.missing;
         if (c.pair) received.about = c.pair->report_pseudonym(), received.voluntary = c.pair->ended;
         Rows before = db.query(
             "SELECT v.id, v.number, v.hash, s.late, s.id IS NULL, v.name FROM versions v LEFT JOIN standing s ON s.id "
-            "= v.id "
-            "WHERE v.assignment = ? AND v.group_id IS nullif(?, 0) AND v.stage = ? AND ifnull(v.pair, 0) = ? AND "
-            "v.part "
-            "= ? ORDER BY v.hash = ? AND ((v.part = ? AND v.name = ?) OR ?) DESC, v.number DESC LIMIT 1",
+            "= v.id WHERE v.assignment = ? AND v.group_id IS nullif(?, 0) AND v.stage = ? AND ifnull(v.pair, 0) = ? "
+            "AND v.part = ? ORDER BY v.hash = ? AND ((v.part = ? AND v.name = ?) OR ?) DESC, v.number DESC LIMIT 1",
             outcome_.assignment.id, c.group.id, request_.stage, pair.value_or(0), c.part, c.hash, kUnreadable, c.name,
             each_counts());
         const bool any = before.next();

@@ -67,8 +67,7 @@ Message model_quality_message(const ModelEvidence& model) {
             "structure may be sufficient.",
             listed(model.doubts.undetermined));
     if (model.white)
-        return Message(
-            "The tests show no missing dynamics, and the standard errors of the model are valid.");
+        return Message("The tests show no missing dynamics, and the standard errors of the model are valid.");
     if (!model.tested)
         return Message(
             "The cause is missing dynamics or a colored disturbance: these data, without a varying input, cannot "

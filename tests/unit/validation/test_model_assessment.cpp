@@ -18,8 +18,7 @@ std::string quality_text(const ModelEvidence& model) {
 }
 
 TEST(model_assessment, good_models_only_are_called_good) {
-    EXPECT_EQ(quality_text({}),
-              "The tests show no missing dynamics, and the standard errors of the model are valid.");
+    EXPECT_EQ(quality_text({}), "The tests show no missing dynamics, and the standard errors of the model are valid.");
     const auto not_good = Not(HasSubstr("The tests show no missing dynamics"));
     EXPECT_THAT(quality_text({.unstable = true}), not_good);
     EXPECT_THAT(quality_text({.fit_percent = 5}), not_good);
