@@ -143,16 +143,62 @@ std::string full_path(const fs::path& folder) {
     return (whole.has_filename() ? whole : whole.parent_path()).string();
 }
 
+/// Words that can be compared with what a script asks for, and the name under which load() finds each of them.
+class LoadableNames {
+  public:
+    void add(const std::string& word, const std::string& name) {
+        words_.push_back(word);
+        names_.push_back(name);
+    }
+    void add_files(const fs::path& folder, const fs::path& prefix) {
+        std::vector<fs::path> files;
+        std::error_code error;
+        for (const auto& entry : fs::directory_iterator(folder, error))
+            if (is_file(entry.path()) && is_data_file(entry.path())) files.push_back(entry.path().filename());
+        std::sort(files.begin(), files.end());
+        for (const fs::path& file : files) add(file.stem().string(), (prefix / file).string());
+    }
+    void add_data_sets(const fs::path& data_folder) {
+        for (const fs::path& data_set : data_sets_in(data_folder)) {
+            add(data_set.filename().string(), data_set.filename().string());
+            if (!is_installed_data(data_set)) continue;
+            for (const std::string& name : course_files(data_set)) add(fs::path(name).stem().string(), name);
+        }
+    }
+    /// Compared without the ending, so that a wrong ending does not hide the file and equal endings do not count.
+    std::optional<std::string> nearest(const std::string& requested) const {
+        const auto word = nearest_word(fs::path(requested).stem().string(), words_);
+        if (!word) return std::nullopt;
+        return names_[static_cast<std::size_t>(std::find(words_.begin(), words_.end(), *word) - words_.begin())];
+    }
+
+  private:
+    std::vector<std::string> words_, names_;
+};
+
+/// Only the script's own folder is searched for similar names: a script must not learn the names of other files.
+[[noreturn]] void fail_missing_file(const fs::path& path, const fs::path& script_folder) {
+    const fs::path file = script_folder / path;
+    LoadableNames names;
+    if (lies_in(script_folder, file.parent_path())) names.add_files(file.parent_path(), path.parent_path());
+    if (const auto nearest = names.nearest(path.filename().string()))
+        throw EnvironmentError("file not found: {}; did you mean \"{}\"?", full_path(file), *nearest);
+    throw EnvironmentError("file not found: {}", full_path(file));
+}
+
 [[noreturn]] void fail_unknown(const std::string& name, const fs::path& script_folder) {
-    const std::vector<std::string> known = dataset_names();
+    LoadableNames names;
+    names.add_files(script_folder, {});
+    for (const fs::path& data_folder : data_folders(script_folder)) names.add_data_sets(data_folder);
+    if (const auto nearest = names.nearest(name))
+        throw is_data_file(name)
+            ? EnvironmentError("file not found: {}; did you mean \"{}\"?", full_path(script_folder / name), *nearest)
+            : EnvironmentError("unknown data set \"{}\"; did you mean \"{}\"?", name, *nearest);
     const std::string folder = full_path(script_folder);
+    const std::vector<std::string> known = dataset_names();
     if (known.empty())
         throw EnvironmentError(
             "unknown data set \"{}\": no data sets are installed. dynlab searches {} for your own files", name, folder);
-    if (const auto nearest = nearest_word(fs::path(name).stem().string(), known))
-        throw EnvironmentError(
-            "unknown data set \"{}\"; did you mean \"{}\"? The data sets are {}. dynlab searches {} for your own files",
-            name, *nearest, listed(known), folder);
     throw EnvironmentError("unknown data set \"{}\"; the data sets are {}. dynlab searches {} for your own files", name,
                            listed(known), folder);
 }
@@ -165,9 +211,8 @@ std::optional<Source> installed_source(const fs::path& path) {
 Source find_source(const std::string& name_or_path, const fs::path& script_folder) {
     const fs::path path = name_or_path;
     if (path.has_parent_path()) {
-        const fs::path file = script_folder / path;
-        if (!is_file(file)) throw EnvironmentError("file not found: {}", full_path(file));
-        return {file};
+        if (!is_file(script_folder / path)) fail_missing_file(path, script_folder);
+        return {script_folder / path};
     }
     if (const auto file = file_beside(script_folder, name_or_path)) return {*file};
     if (path.has_extension() && is_file(script_folder / path)) return {script_folder / path};  // of another kind

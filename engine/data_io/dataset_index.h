@@ -19,7 +19,8 @@ namespace dynlab::inline data_io {
 /// package (packaged_data.h) according to a line `Package: NAME FILE SAMPLES samples TS s` of SOURCE.md, which is
 /// valid in the installed data only. `graded`: data sets of the installed data win over files next to the script, also
 /// if a path below data/ names them, and a link that leads out of `script_folder` is refused. Files of the installed
-/// data are read without guard. Throws EnvironmentError that lists the existing names and suggests the nearest one.
+/// data are read without guard. Throws EnvironmentError that suggests the nearest data
+/// set or file of the script's folder, or lists the data sets if none is near.
 LoadedData load_data(const std::string& name_or_path, const std::filesystem::path& script_folder, bool graded = false,
                      const ImportOptions& options = {});
 

@@ -10,6 +10,7 @@
 #include "documents/text_lines.h"
 #include "platform/error.h"
 #include "platform/files/inside_folder.h"
+#include "platform/spelling.h"
 #include "platform/terminal/terminal_text.h"
 #include "platform/text/small_letters.h"
 #include "workflow/notebooks/notebook.h"
@@ -41,6 +42,10 @@ Message kind_of(const std::string& ending) {
     for (const auto& [endings, kind] : kKinds)
         if (std::find(endings.begin(), endings.end(), ending) != endings.end()) return kind;
     return {};
+}
+
+bool is_script_name(const fs::path& file) {
+    return ending_of(file) == ".lua" || ending_of(file) == ".ipynb";
 }
 
 bool is_small_file(const std::filesystem::path& file) {
@@ -87,17 +92,54 @@ Message nearly_called(const fs::path& folder, const std::string& name) {
                             : Message("but there are {}: rename the correct file to {}", listed(near), name);
 }
 
+std::optional<fs::path> nearest_work(const fs::path& given) {
+    const bool names_script = is_script_name(given);
+    const std::string requested = (names_script ? given.stem() : given.filename()).string();
+    std::vector<std::string> words;
+    std::vector<fs::path> works;
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(folder_around(given), none)) {
+        const fs::path& there = entry.path();
+        if (is_script_name(there) && entry.is_regular_file(none))
+            works.push_back(there.filename());
+        else if (fs::is_regular_file(there / kScriptOfFolder, none))
+            works.push_back(there.filename());
+    }
+    // Scripts first if a script is named, otherwise folders first: both may have the same name.
+    std::ranges::sort(works, {},
+                      [&](const fs::path& work) { return std::pair(is_script_name(work) != names_script, work); });
+    for (const fs::path& work : works) words.push_back((is_script_name(work) ? work.stem() : work).string());
+    auto found = works.end();
+    if (const auto near = nearest_word(requested, words))
+        found = works.begin() + (std::ranges::find(words, *near) - words.begin());
+    else if (!requested.empty())  // "analysis (2).lua", as browsers name a second download
+        found = std::ranges::find_if(works, [&](const fs::path& work) {
+            return in_small_letters(work.string()).starts_with(in_small_letters(requested) + " ");
+        });
+    if (found == works.end()) return std::nullopt;
+    return given.has_parent_path() ? given.parent_path() / *found : *found;
+}
+
+Message no_such_work(const fs::path& given) {
+    const bool names_script = is_script_name(given);
+    if (const auto near = nearest_work(given))
+        return names_script
+                   ? Message("file not found: {}; did you mean {}?", given.string(), shell_word(near->string()))
+                   : Message("file or folder not found: {}; did you mean {}?", given.string(),
+                             shell_word(near->string()));
+    return names_script ? Message("file not found: {}", given.string())
+                        : Message("file or folder not found: {}", given.string());
+}
+
 fs::path meant_script(const fs::path& given) {
     const bool folder = fs::is_directory(given);
     const fs::path script = folder ? given / kScriptOfFolder : given;
     if (fs::exists(script)) return script;
-    const Message near = nearly_called(folder_around(script), script.filename().string());
-    if (folder && near.empty())
-        throw EnvironmentError("the file {} is missing from the folder {}", kScriptOfFolder, given.string());
-    if (folder)
-        throw EnvironmentError("the file {} is missing from the folder {}, {}", kScriptOfFolder, given.string(), near);
-    if (!near.empty()) throw EnvironmentError("file not found: {}, {}", given.string(), near);
-    return script;  // the reader of the script reports any problem
+    if (!folder) throw EnvironmentError(no_such_work(given));
+    const Message near = nearly_called(given, kScriptOfFolder);
+    throw near.empty()
+        ? EnvironmentError("the file {} is missing from the folder {}", kScriptOfFolder, given.string())
+        : EnvironmentError("the file {} is missing from the folder {}, {}", kScriptOfFolder, given.string(), near);
 }
 
 std::string language_of_work(const std::filesystem::path& work) {

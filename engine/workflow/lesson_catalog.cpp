@@ -10,6 +10,7 @@
 #include "platform/files/course_home.h"
 #include "platform/program_lookup.h"
 #include "platform/spelling.h"
+#include "platform/text/small_letters.h"
 #include "workflow/given_script.h"
 
 namespace dynlab::inline workflow {
@@ -22,15 +23,6 @@ std::vector<std::string> slugs_of(const std::vector<Lesson>& found) {
     std::vector<std::string> slugs;
     for (const Lesson& lesson : found) slugs.push_back(lesson.slug);
     return slugs;
-}
-
-/// The folders here that hold work, as `dynlab new` makes them, under the names that people give.
-std::vector<std::string> folders_of_work() {
-    std::vector<std::string> names;
-    std::error_code none;
-    for (const auto& entry : fs::directory_iterator(".", none))
-        if (fs::is_regular_file(entry.path() / "analysis.lua", none)) names.push_back(entry.path().filename());
-    return names;
 }
 
 /// `name` is no lesson: what it is instead, or what was meant.
@@ -47,10 +39,18 @@ Message no_lesson(const std::string& name, const std::vector<Lesson>& all) {
                    : Message("the folder '{}' contains neither lesson.lua nor analysis.lua, {}; the lessons are {}",
                              name, near, slugs);
     }
-    std::vector<std::string> names = folders_of_work();
-    for (const Lesson& lesson : all) names.push_back(lesson.slug);
+    const std::string ending = ending_of(name);
+    if (ending == ".lua" || ending == ".ipynb") return no_such_work(name);
+    if (const auto work = nearest_work(name))
+        return Message("unknown lesson or folder '{}'; did you mean '{}'?", name, work->string());
+    std::vector<std::string> names;
+    for (const Lesson& lesson : all) {
+        names.push_back(lesson.slug);
+        const std::size_t number_end = lesson.slug.find('_');
+        if (number_end != std::string::npos) names.push_back(lesson.slug.substr(number_end + 1));
+    }
     const auto near = nearest_word(name, names);
-    return near ? Message("unknown lesson or folder '{}'; did you mean '{}'? The lessons are {}", name, *near, slugs)
+    return near ? Message("unknown lesson or folder '{}'; did you mean '{}'?", name, *near)
                 : Message("unknown lesson or folder '{}'; the lessons are {}", name, slugs);
 }
 

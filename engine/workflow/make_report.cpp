@@ -171,8 +171,7 @@ ReportRequest report_of(const std::string& subject, const fs::path& output, cons
     if (fs::is_regular_file(folder)) {
         if (!language.empty())
             throw EnvironmentError(
-                "--language applies only to a lesson. Set the language in the header of {} with \"language:\"",
-                subject);
+                "--lang applies only to a lesson. Set the language in the header of {} with \"language:\"", subject);
         return report_of_script(read_script_or_notebook(folder),
                                 output.empty() ? fs::path(folder).replace_extension(".pdf") : output);
     }
@@ -180,7 +179,7 @@ ReportRequest report_of(const std::string& subject, const fs::path& output, cons
         return report_of_lesson(find_lesson(subject), output, language);
     if (!language.empty())
         throw EnvironmentError(
-            "--language applies only to a lesson. Set the language of {} in the header of report.md with \"lang:\"",
+            "--lang applies only to a lesson. Set the language of {} in the header of report.md with \"lang:\"",
             subject);
     return report_of_folder(subject, output);
 }

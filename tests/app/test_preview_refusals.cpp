@@ -30,7 +30,7 @@ class preview_refusals : public testing::Test {
 };
 
 TEST_F(preview_refusals, files_and_folders) {
-    EXPECT_EQ(refusal({"nothere.lua"}), "dynlab: file or folder not found: nothere.lua\n");
+    EXPECT_EQ(refusal({"nothere.lua"}), "dynlab: file not found: nothere.lua\n");
     fs::create_directory(bench.path("empty"));
     EXPECT_EQ(refusal({"empty"}),
               "dynlab: empty has no analysis.lua; a report needs analysis.lua and report.md (dynlab new LESSON DIR "

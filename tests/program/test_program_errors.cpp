@@ -157,12 +157,17 @@ TEST(program_errors, wrong_words_are_reported_in_all_programs_and_nothing_is_wri
             bench.dynlab({command, "mine/report.md"}), 2,
             "dynlab: report.md is the report's text. Give the folder, for example: dynlab " + command + " mine\n");
     expect_failure(bench.dynlab({"run", "absent.lua"}), 1, "absent.lua");
-    expect_failure(bench.dynlab({"report", "miner"}), 1,
-                   "unknown lesson or folder 'miner'; did you mean 'mine'? The lessons are ");
+    expect_failure(bench.dynlab({"report", "miner"}), 1, "unknown lesson or folder 'miner'; did you mean 'mine'?\n");
+    bench.write("mine.lua", "print(1)\n");
+    for (const std::string command : {"run", "report", "preview"})
+        expect_failure(bench.dynlab({command, "minr.lua"}), 1, "file not found: minr.lua; did you mean mine.lua?\n");
+    for (const std::string command : {"lint", "pack", "check"})
+        expect_failure(bench.dynlab({command, "minr.lua"}), 2, "file not found: minr.lua; did you mean mine.lua?\n");
+    expect_failure(bench.dynlab({"check", "miner"}), 2, "file or folder not found: miner; did you mean mine?\n");
     expect_failure(bench.dynlab({"lint", "capital"}), 2,
                    "missing from the folder capital, but there is Analysis.lua: rename it");
     EXPECT_EQ(bench.read("mine/report.pdf"), "%PDF the good one");
-    EXPECT_THAT(bench.files(), ElementsAre("capital", "mine"));
+    EXPECT_THAT(bench.files(), ElementsAre("capital", "mine", "mine.lua"));
 }
 
 TEST(program_errors, a_bibliography_that_is_a_link_to_elsewhere_is_not_packed) {

@@ -19,6 +19,7 @@
 #include "platform/hash.h"
 #include "platform/locks/file_lock.h"
 #include "workflow/authoring/made_folders.h"
+#include "workflow/given_script.h"
 #include "workflow/lesson_catalog.h"
 
 namespace dynlab::inline app {
@@ -29,7 +30,7 @@ namespace fs = std::filesystem;
 /// How the document is read, now and after every change.
 std::function<ReportRequest()> reader_of(const std::string& document) {
     const bool names_file = document.ends_with(".lua") || document.find('/') != std::string::npos;
-    if (names_file && !fs::exists(document)) throw EnvironmentError("file or folder not found: {}", document);
+    if (names_file && !fs::exists(document)) throw EnvironmentError(no_such_work(document));
     if (fs::exists(document) && !fs::is_directory(document))
         return [document] { return report_of_script(read_percent_script(document), "preview.html"); };
     return [document] { return report_of(document, "preview.html", ""); };

@@ -18,9 +18,11 @@
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/memory.h"
+#include "platform/spelling.h"
 #include "platform/system_call.h"
 #include "scripting/interpreter/catalog.h"
 #include "scripting/runtime/help.h"
+#include "workflow/given_script.h"
 #include "workflow/lesson_catalog.h"
 #include "workflow/recording.h"
 
@@ -51,18 +53,28 @@ fs::path session_of(const std::string& name) {
     return fs::path(name).stem().string() + "_session.lua";
 }
 
+Lesson lesson_called(const std::string& words, const std::vector<std::string>& data_sets) {
+    try {
+        return find_lesson(words);
+    } catch (const EnvironmentError&) {
+        const auto near = nearest_word(words, data_sets);
+        if (!near) throw;
+        throw EnvironmentError("unknown data set or lesson '{}'; did you mean '{}'?", words, *near);
+    }
+}
+
 Subject subject_of(const std::string& words) {
     expect_plain_name(words);
     if (words.empty()) return {"session.lua", "", "Session"};
     if (words.ends_with(".lua")) {
-        if (!fs::exists(words)) throw EnvironmentError("file not found: {}", words);
+        if (!fs::exists(words)) throw EnvironmentError(no_such_work(words));
         return {words, "", ""};
     }
     if (is_data_file(words) && !fs::exists(words)) throw EnvironmentError("file not found: {}", words);
     const std::vector<std::string> sets = dataset_names();
     const bool is_data = fs::exists(words) || std::find(sets.begin(), sets.end(), words) != sets.end();
     if (is_data) return {session_of(words), words, "Identification from " + fs::path(words).filename().string()};
-    const Lesson lesson = find_lesson(words);
+    const Lesson lesson = lesson_called(words, sets);
     const std::string data_set = data_of_lesson(lesson);
     return {session_of(lesson.slug), data_set, "Identification from " + fs::path(data_set).stem().string()};
 }

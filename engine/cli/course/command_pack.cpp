@@ -17,6 +17,7 @@
 #include "platform/error.h"
 #include "platform/temporary_folder.h"
 #include "platform/terminal/terminal_text.h"
+#include "workflow/given_script.h"
 #include "workflow/make_report.h"
 #include "workflow/script_folder.h"
 
@@ -151,7 +152,11 @@ void add_pack(CLI::App& app, Action& action) {
         ->add_option("DIR|FILE.lua", words->subject,
                      "Folder created by dynlab new, or a script, which becomes analysis.lua in the pack")
         ->required()
-        ->check(CLI::ExistingPath);
+        ->check(CLI::Validator(
+            [](std::string& given) {
+                return std::filesystem::exists(given) ? std::string() : message_text(no_such_work(given), user());
+            },
+            ""));
     command
         ->add_option("-o,--output", words->output,
                      "Zip file to create. Default: DIR.zip or FILE.zip in the current folder.")

@@ -72,7 +72,8 @@ std::string complaint_about(const std::string& given) {
     if (given == kStandardInput || fs::is_regular_file(given)) return {};
     if (fs::is_regular_file(fs::path(given) / "analysis.lua")) return {};
     try {
-        return message_text(Message("file not found: {}", meant_script(given).string()), user());
+        meant_script(given);
+        return {};
     } catch (const EnvironmentError& error) {
         return message_text(error.message(), user());
     }

@@ -115,14 +115,15 @@ TEST_F(dataset_index, loads_files_by_path) {
     EXPECT_EQ(std::get<Vector>(load("b").variables.at("y").value).size(), 1);
 }
 
-TEST_F(dataset_index, unknown_names_list_the_known_ones) {
-    EXPECT_EQ(complaint("heat_exchangr"),
-              "unknown data set \"heat_exchangr\"; did you mean \"heat_exchanger\"? The data sets are heat_exchanger, "
-              "step_response. dynlab searches " +
+TEST_F(dataset_index, unknown_names_list_the_known_ones_unless_one_is_near) {
+    EXPECT_EQ(complaint("heat_exchangr"), "unknown data set \"heat_exchangr\"; did you mean \"heat_exchanger\"?");
+    EXPECT_EQ(complaint("pendulum"),
+              "unknown data set \"pendulum\"; the data sets are heat_exchanger, step_response. dynlab searches " +
                   scripts_.path().string() + " for your own files");
-    EXPECT_THAT(complaint_in(scripts_.path() / ".", "heat_exchangr"),
+    EXPECT_THAT(complaint_in(scripts_.path() / ".", "pendulum"),
                 EndsWith("searches " + scripts_.path().string() + " for your own files"));
-    EXPECT_THAT(complaint("pendulum"), HasSubstr("\"pendulum\"; the data sets are heat_exchanger, step_response"));
+    EXPECT_EQ(complaint("heat_exchanger_data"),
+              "unknown data set \"heat_exchanger_data\"; did you mean \"heatexchanger_data.mat\"?");
     EXPECT_THAT(complaint("step_respose.csv"), HasSubstr("did you mean \"step_response\"?"));
     EXPECT_EQ(complaint("records/none.csv"), "file not found: " + (scripts_.path() / "records/none.csv").string());
     write_file_atomically(scripts_.path() / "notes.doc", "x");
@@ -130,6 +131,33 @@ TEST_F(dataset_index, unknown_names_list_the_known_ones) {
         EXPECT_THAT(complaint(name),
                     HasSubstr("notes.doc has an unsupported file type; supported types are .mat, .xlsx, .csv,"));
     for (const char* name : {"", ".", "..", "not_a_set"}) EXPECT_NE(complaint(name), "no error") << name;
+}
+
+// oracle: the names of the files; the ending must neither hide a file nor make two names similar
+TEST_F(dataset_index, missing_files_suggest_the_nearest_file_of_the_script_folder) {
+    fs::create_directories(scripts_.path() / "records");
+    for (const char* file : {"measured.csv", "second.xlsx", "a.csv", "measured_notes.txt", "records/first.csv"})
+        write_file_atomically(scripts_.path() / file, "y\n1\n");
+    add_set(scripts_.path() / "data", "own_kiln", "Mine.\n");
+    const auto missing = [&](const std::string& name, const std::string& meant) {
+        return "file not found: " + (scripts_.path() / name).string() + "; did you mean \"" + meant + "\"?";
+    };
+    EXPECT_EQ(complaint("mesured.csv"), missing("mesured.csv", "measured.csv"));
+    EXPECT_EQ(complaint("measured.mat"), missing("measured.mat", "measured.csv"));
+    EXPECT_EQ(complaint("secnd.xlsx"), missing("secnd.xlsx", "second.xlsx"));
+    EXPECT_EQ(complaint("records/frist.csv"), missing("records/frist.csv", "records/first.csv"));
+    EXPECT_EQ(complaint("mesured"), "unknown data set \"mesured\"; did you mean \"measured.csv\"?");
+    EXPECT_EQ(complaint("own_klin"), "unknown data set \"own_klin\"; did you mean \"own_kiln\"?");
+    EXPECT_THAT(complaint("b.csv"), HasSubstr("unknown data set \"b.csv\"; the data sets are"));
+}
+
+// oracle: a script must not learn the names of files outside of its folder
+TEST_F(dataset_index, missing_files_elsewhere_suggest_nothing) {
+    write_file_atomically(project_.path() / "measured.csv", "y\n1\n");
+    const std::string file = (project_.path() / "mesured.csv").string();
+    EXPECT_EQ(complaint(file), "file not found: " + file);
+    fs::create_directory_symlink(project_.path(), scripts_.path() / "link");
+    EXPECT_EQ(complaint("link/mesured.csv"), "file not found: " + (scripts_.path() / "link/mesured.csv").string());
 }
 
 TEST_F(dataset_index, lists_the_installed_sets) {

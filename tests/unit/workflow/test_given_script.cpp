@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "documents/text_lines.h"
 #include "workflow/lesson_catalog.h"
 #include "workflow/make_report.h"
 #include "workflow_run.h"
@@ -32,6 +33,25 @@ TEST(given_script, that_is_missing_is_looked_for_under_nearly_its_name) {
                 HasSubstr("capital has no analysis.lua, but there is Analysis.lua: rename it"));
     EXPECT_THAT(error_of([&] { report_of(work.path("text")); }),
                 HasSubstr("text has no report.md, but there is Report.md: rename it to report.md"));
+}
+
+TEST(given_script, missing_file_suggests_the_nearest_script_or_folder) {
+    const WorkFolder work;
+    for (const char* script : {"mine.lua", "session.lua", "second (1).lua", "notes.txt", "crane/analysis.lua"})
+        work.write(script, "print(1)\n");
+    work.write("book.ipynb", "{}");
+    const auto refusal = [&](const char* name) {
+        const std::string message = error_of([&] { meant_script(work.path(name)); });
+        return replaced(message, work.path("").string(), "");
+    };
+    EXPECT_EQ(refusal("mien.lua"), "file not found: mien.lua; did you mean mine.lua?");
+    EXPECT_EQ(refusal("mine"), "file or folder not found: mine; did you mean mine.lua?");
+    EXPECT_EQ(refusal("Session.lua"), "file not found: Session.lua; did you mean session.lua?");
+    EXPECT_EQ(refusal("book.lua"), "file not found: book.lua; did you mean book.ipynb?");
+    EXPECT_EQ(refusal("crnae"), "file or folder not found: crnae; did you mean crane?");
+    EXPECT_EQ(refusal("second.lua"), "file not found: second.lua; did you mean 'second (1).lua'?");
+    for (const char* far : {"a.lua", "note.lua", "none/mine.lua"})
+        EXPECT_EQ(refusal(far), "file not found: " + std::string(far));
 }
 
 TEST(given_script, folders_without_a_lesson_list_what_is_missing) {
