@@ -108,6 +108,10 @@ int simulate_grey_box(Call& call, const GreyFit& grey, const Options& options, c
 
 int simulate(Call& call) {
     call.at_most(4);
+    if (call.given(2) && !call.given(3))
+        throw InvalidArgument(
+            "argument 3 (t or Ts) is missing; write the sampling time in seconds, such as lsim(G, u, 0.1), or the time "
+            "vector");
     const Options options(call, 4, kLsimTables);
     const Vector x0 = options.has("x0") ? Vector(options.vector("x0")) : Vector();
     if (const GreyEstimate grey = to_grey_box(call, 1)) return simulate_grey_box(call, *grey, options, x0);

@@ -21,6 +21,9 @@ Message elements_of(Index size) {
 
 [[noreturn]] void refuse_element(const char* what, double number, Index size) {
     const Number place = significant(number, 10);
+    if (number == 0 && size > 0)
+        throw InvalidArgument("{}[{}] does not exist: {} has {}; the first element is {}[1]", what, place, what,
+                              elements_of(size), what);
     if (number >= 0) throw InvalidArgument("{}[{}] does not exist: {} has {}", what, place, what, elements_of(size));
     throw InvalidArgument("{}[{}] does not exist: {} has {}; the last element is {}[#{}]", what, place, what,
                           elements_of(size), what, what);

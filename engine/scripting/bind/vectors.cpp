@@ -116,6 +116,8 @@ int logspace(Call& call) {
 
 int range(Call& call) {
     call.at_most(3);
+    if (call.given(1) && !call.given(2))
+        throw InvalidArgument("argument 2 (last) is missing; write range(first, last), such as range(1, 3)");
     const double first = call.number(1, "first"), last = call.number(call.given(3) ? 3 : 2, "last");
     const double step = call.given(3) ? call.number(2, "step") : 1;
     if (step == 0 || !std::isfinite(step))

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "platform/interrupt.h"
+#include "scripting/conversions/misplaced_argument.h"
 #include "scripting/conversions/numeric.h"
 #include "scripting/conversions/option_words.h"
 #include "scripting/conversions/userdata.h"
@@ -22,6 +24,7 @@ constexpr double kLargestExactWhole = 9007199254740992.0;  // 2^53
 
 [[noreturn]] void wrong_value(lua_State* L, int index, const Message& label, const Message& requested) {
     const Message given = given_value(L, index);
+    refuse_misplaced(L, index, label, requested, given);
     if (to_mask(L, index) != nullptr)
         throw InvalidArgument(
             "{} must be {}, but {} was given; find(mask) returns the indices, and #find(mask) returns their number",

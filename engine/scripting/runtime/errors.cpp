@@ -161,6 +161,8 @@ Message plain_sentence(const std::string& text) {
         return with_advice(
             Message("{} is {}, so the operator # cannot count its elements", subject(text), what_it_is(*type)),
             *type == "iddata" ? Message("data.N is the number of samples") : Message());
+    if (starts_with(text, "attempt to mod a 'string'"))
+        return Message("arithmetic with a string is not possible; to format numbers, write string.format(\"%.3f\", x)");
     if (text.find(" a 'string' with a ") != std::string::npos)
         return Message(
             "arithmetic with a string is not possible; use two dots to join strings and numbers: \"a = \" .. x");

@@ -169,9 +169,39 @@ Message operator_hint(const std::string& code) {
     if (contains(code, ":=")) return Message("to assign a value, write x = 3");
     if (contains(code, "&&")) return Message("write 'and' instead of '&&'");
     if (contains(code, "||")) return Message("write 'or' instead of '||'");
-    if (contains(code, "+=") || contains(code, "-=") || contains(code, "*="))
-        return Message("write x = x + 1 instead of x += 1");
+    static const RE2 kChange(R"(\w\s*(?://|\.\.|[-+*/%^])=[^=])", RE2::Latin1);
+    if (RE2::PartialMatch(code + " ", kChange)) return Message("write x = x + 1 instead of x += 1");
+    static const RE2 kPlus(R"([A-Za-z_)\]]\s*\.([-+]))", RE2::Latin1);
+    std::string sign;
+    if (RE2::PartialMatch(code, kPlus, &sign)) return Message("write v {} 1 instead of v .{} 1", sign, sign);
     if (contains(code, "++")) return Message("write x = x + 1 instead of x++");
+    return {};
+}
+
+/// Statements and expressions of Python that have another form in Lua.
+Message python_hint(const std::string& code) {
+    static const RE2 kImport(R"(\s*(?:from\s+[\w.]+\s+import\b|import\s+\w).*)", RE2::Latin1),
+        kNone(R"(\bis\s+(?:not\s+)?(?:None|True|False|nil|\w+\s*(?:then\b|:)))", RE2::Latin1),
+        kFormat(R"(["']\s*\.\s*format\s*\()", RE2::Latin1),
+        kKeys(R"(\{\s*(?:""|'[^']*'|[A-Za-z_]\w*)\s*:\s*[^:\s])", RE2::Latin1),
+        kLoopInside(R"([(\[=,]\s*[^=]*\w\s+for\s+\w+\s+in\s)", RE2::Latin1),
+        kChoice(R"([\w)\]]\s+if\s.*\selse\s)", RE2::Latin1);
+    const std::string word = first_word(code);
+    if (RE2::FullMatch(code, kImport)) return *matlab_name_hint("import");
+    static const RE2 kStatement(R"(\s*[a-z]+\s+[\w"'].*)", RE2::Latin1);  // not with = 3
+    if (RE2::FullMatch(code, kStatement)) {
+        if (word == "class") return Message("Lua has no classes; put values and functions in a table: {gain = 2}");
+        if (word == "with") return Message("scripts cannot open files; load(name) reads a data file");
+        if (word == "raise") return *matlab_name_hint("raise");
+        if (word == "assert") return Message("write assert(condition, \"message\")");
+    }
+    if (RE2::PartialMatch(code, kNone)) return Message("write x == nil or x ~= nil");
+    if (RE2::PartialMatch(code, kFormat)) return Message("write string.format(\"%.3f\", x)");
+    if (RE2::PartialMatch(code, kKeys)) return Message("write a table with names as {}", "{a = 1, b = 2}");
+    if (RE2::PartialMatch(code, kLoopInside))
+        return Message("write a loop: for i = 1, N do ... end; a function of a vector, such as v^2, needs no loop");
+    if (word != "if" && word != "elseif" && RE2::PartialMatch(code, kChoice))
+        return Message("write if ... then ... else ... end");
     return {};
 }
 
@@ -186,7 +216,8 @@ Message block_hint(const std::string& code) {
     if (word == "elif" || word == "elsif") return Message("write elseif ... then");
     if (word == "def") return named_function_form();
     if (word == "const" || word == "let" || word == "var") return Message("to declare a variable, write local x = 3");
-    if (word == "try" || word == "catch") return Message("write local ok, message = pcall(f) instead of try");
+    if (word == "try" || word == "catch" || word == "except")
+        return Message("write local ok, message = pcall(f) instead of try");
     if (word == "end" && contains(code, "end;"))
         return Message("one 'end' is superfluous, or the start of a block is missing");
     return {};
@@ -202,6 +233,13 @@ Message command_hint(const std::string& code, const std::string& near) {
         code, [](char c) { return name_character(c) || std::string_view(" \t\r;").find(c) != std::string_view::npos; });
     const Message* const hint = words_only ? matlab_name_hint(first_word(code)) : nullptr;
     if (hint != nullptr) return *hint;
+    static const RE2 kFirstOfSeveral(R"(\s*([A-Za-z_]\w*)\s*;.*)", RE2::Latin1);
+    if (near == ";" && RE2::FullMatch(code, kFirstOfSeveral, &first)) {
+        const Message* const known = matlab_name_hint(first);
+        if (known != nullptr) return *known;
+        return first == "figure" ? Message("every plotting function creates its figure: remove figure")
+                                 : Message("write a call as {}()", first);
+    }
     if (block_hint(code).empty() && RE2::FullMatch(code, kTwoWords, &first, &second) &&
         second.substr(0, second.find_first_of("./-")) == near && first != "local" && first != "return" &&
         first != "goto" && first != "function")
@@ -215,14 +253,18 @@ Message command_hint(const std::string& code, const std::string& near) {
 
 Message lone_word_hint(const std::string& line) {
     const std::string code = code_only(line), word = first_word(code);
-    const auto last = code.find_last_not_of(" \t\r;");
+    const auto last = code.find_last_not_of(" \t\r;:");
     if (last == std::string::npos || last + 1 != code.find(word) + word.size()) return {};
-    return word == "try" || word == "catch" ? Message("'{}' is not a keyword of Lua; {}", word, block_hint(code))
-                                            : Message();
+    return word == "try" || word == "catch" || word == "except"
+               ? Message("'{}' is not a keyword of Lua; {}", word, block_hint(code))
+               : Message();
 }
 
 Message colon_block_hint(const std::string& line) {
     const std::string code = code_only(line), word = first_word(code);
+    static const RE2 kLoopInOneLine(R"(\s*for\s+\w+(?:\s*,\s*\w+)*\s+in\s.*\)\s*:.*)", RE2::Latin1),
+        kDo(R"(\bdo\b)", RE2::Latin1);
+    if (RE2::FullMatch(code, kLoopInOneLine) && !RE2::PartialMatch(code, kDo)) return for_loop_form();
     if (!ends_with(code, ":")) return {};
     if (word == "for" || word == "while") return for_loop_form();
     return word == "if" || word == "else" || word == "elif" ? condition_form() : Message();
@@ -254,6 +296,15 @@ Message comment_hint(const std::string& line, const std::string& name) {
     return sign != std::string::npos && code.find(name, sign) != std::string::npos ? comment_form() : Message();
 }
 
+Message string_prefix_hint(const std::string& line, const std::string& name) {
+    static const RE2 kPrefix(R"((?:^|[^\w.:])([fFrRbBuU])["'])", RE2::Latin1);
+    std::string prefix;
+    if (!RE2::PartialMatch(line, kPrefix, &prefix) || prefix != name) return {};
+    return name == "f" || name == "F"
+               ? Message("write a string with values as \"K = \" .. K, or string.format(\"K = %.3f\", K)")
+               : Message("write the string without {} before it", name);
+}
+
 bool begins_foreign_comment(const std::string& line) {
     const auto first = line.find_first_not_of(" \t");
     return first != std::string::npos &&
@@ -265,6 +316,7 @@ Message matlab_syntax_hint(const std::string& line, const std::string& near) {
     if (Message hint = command_hint(code, near); !hint.empty()) return hint;
     const auto first = code.find_first_not_of(" \t");
     if (first != std::string::npos && (code[first] == '%' || code[first] == '#')) return comment_form();
+    if (Message hint = python_hint(code); !hint.empty()) return hint;
     if (near == "=" && has_assignment_condition(code)) return Message("to compare, write == instead of =");
     if (Message hint = operator_hint(code); !hint.empty()) return hint;
     if (ends_with(code, "...") && near != ")")

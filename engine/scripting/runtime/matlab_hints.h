@@ -16,6 +16,8 @@ Message matlab_syntax_hint(const std::string& line, const std::string& near);
 Message comment_hint(const std::string& line, const std::string& name);
 /// Whether a line begins as a comment does in other languages.
 bool begins_foreign_comment(const std::string& line);
+/// For a word that is no function, if a string follows it without a space as in Python: f"gain {K}".
+Message string_prefix_hint(const std::string& line, const std::string& name);
 /// For a line that Lua read to its end, but whose block it never found closed, as Python writes one: for k in x:
 Message colon_block_hint(const std::string& line);
 /// For a line of one word that opens a block elsewhere and is none here: "try".

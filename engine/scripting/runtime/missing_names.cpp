@@ -172,6 +172,8 @@ void collect_text_keys(lua_State* L, int table, std::vector<std::string>& names)
 Message unknown_name(const std::string& name, const std::string& line, std::vector<std::string> names) {
     if (const Message comment = comment_hint(line, name); !comment.empty())
         return Message("unknown variable '{}'; {}", name, comment);
+    if (const Message string = string_prefix_hint(line, name); !string.empty())
+        return Message("unknown function '{}'; {}", name, string);
     if (const Message* const matlab = matlab_name_hint(name))
         return Message("unknown function or variable '{}'; {}", name, *matlab);
     const auto near = nearest(name, std::move(names));
