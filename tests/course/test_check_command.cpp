@@ -42,11 +42,26 @@ TEST(check_command, a_sound_folder_passes_with_one_line_and_is_left_as_it_was) {
     const ChildResult result = bench.dynlab({"check", "mine"});
     EXPECT_EQ(result.exit_code, 0) << result.error_output;
     EXPECT_EQ(result.output,
-              "mine: nothing to fix; checked: run from a clean copy, 1 page (limit: 1), 0 numbered figures, unfilled "
-              "slots, English only, text size and margins.\n");
+              "mine: nothing to fix; checked: run from a clean copy, 1 page (limit: 1), 0 numbered figures, "
+              "placeholder text, English only, text size and margins.\n");
     EXPECT_THAT(result.error_output, IsEmpty());
     EXPECT_EQ(listing(bench), before);
     EXPECT_THAT(bench.files(), ElementsAre("mine"));
+}
+
+TEST(check_command, script_without_code_is_reported_and_its_pdf_has_the_name_of_the_script) {
+    const Workbench bench;
+    bench.write("empty.lua", "-- a comment\n\n");
+    const ChildResult empty = bench.dynlab({"check", "empty.lua"});
+    EXPECT_EQ(empty.exit_code, 0) << empty.error_output;
+    EXPECT_THAT(empty.output,
+                HasSubstr("script-empty\n    empty.lua: The script contains no code, so it computes nothing."));
+    bench.write("full.lua", "print(1)\n");
+    ASSERT_EQ(bench.dynlab({"report", "full.lua"}).exit_code, 0);
+    const ChildResult full = bench.dynlab({"check", "full.lua"});
+    EXPECT_THAT(full.output, HasSubstr("full.lua: nothing to fix; checked as lesson: run from a clean copy, "));
+    EXPECT_THAT(full.output, HasSubstr("full.pdf is up to date"));
+    EXPECT_THAT(full.output, Not(HasSubstr("report.pdf")));
 }
 
 TEST(check_command, what_needs_more_than_the_folder_fails_from_a_clean_copy) {
@@ -316,7 +331,7 @@ TEST(check_command, misuse_ends_with_two) {
     const Workbench bench;
     const ChildResult none = bench.dynlab({"check", "nowhere"});
     EXPECT_EQ(none.exit_code, 2);
-    EXPECT_THAT(none.error_output, HasSubstr("file or folder not found: 'nowhere'"));
+    EXPECT_THAT(none.error_output, HasSubstr("file or folder not found: nowhere\n"));
     bench.write("a.pdf", "x");
     const ChildResult unknown = bench.dynlab({"check", "a.pdf", "--template", "novel"});
     EXPECT_EQ(unknown.exit_code, 2);

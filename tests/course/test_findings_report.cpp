@@ -11,6 +11,7 @@ namespace test_findings_report {
 
 using testing::HasSubstr;
 using testing::Not;
+using testing::StartsWith;
 
 CheckResult some_result() {
     CheckResult result{"report.pdf",
@@ -18,7 +19,7 @@ CheckResult some_result() {
                        "en",
                        "",
                        7,
-                       {Message("{} pages (limit: {})", 7, 6), Message("unfilled slots")},
+                       {Message("{} pages (limit: {})", 7, 6), Message("placeholder text")},
                        {}};
     result.findings = {{"language-mixed", Severity::kHint, 2, "", Message("A hint."), Message("Look at it.")},
                        {"pages", Severity::kRule, 7, "", Message("It is long."), Message("Shorten it.")},
@@ -31,7 +32,8 @@ CheckResult some_result() {
 
 TEST(findings_report, rules_come_before_hints_with_place_and_remedy) {
     EXPECT_EQ(issues_as_text(some_result(), false),
-              "report.pdf: checked as lab_report: 7 pages (limit: 6), unfilled slots\n"
+              "report.pdf: still to do: 2 texts to complete and 1 problem to fix\n"
+              "Checked as lab_report: 7 pages (limit: 6), placeholder text\n"
               "\nRules violated (3)\n"
               "\n  answer-open\n    analysis.lua:12: " +
                   std::string(30, 'x') + "\n    " + std::string(80, 'y') +
@@ -47,6 +49,8 @@ TEST(findings_report, answers_and_checks_of_the_lesson_are_counted_by_themselves
     result.findings.push_back({"answer-missing", Severity::kRule, 0, "", Message("Missing."), Message("Give it.")});
     result.findings.push_back({"check-failed", Severity::kHint, 0, "", Message("Lost."), Message("Look.")});
     const std::string words = issues_as_text(result, false);
+    EXPECT_THAT(words, StartsWith("report.pdf: still to do: 1 answer to submit, 2 texts to complete and 1 problem to "
+                                  "fix\nChecked as lab_report: "));
     for (const char* const title :
          {"Missing answers (1)", "Rules violated (3)", "Hints (1)", "Checks of the lesson (1)"})
         EXPECT_THAT(words, HasSubstr(std::string("\n") + title + "\n"));
@@ -55,6 +59,7 @@ TEST(findings_report, answers_and_checks_of_the_lesson_are_counted_by_themselves
 TEST(findings_report, hints_alone_say_that_no_rule_is_broken) {
     CheckResult result = some_result();
     result.findings.erase(result.findings.begin(), result.findings.begin() + 3);
+    EXPECT_THAT(issues_as_text(result, false), StartsWith("report.pdf: checked as lab_report: "));
     EXPECT_THAT(issues_as_text(result, false), HasSubstr("\nNo rules are violated.\n"));
     EXPECT_THAT(issues_as_text(result, false), Not(HasSubstr("Rules violated")));
 }
@@ -63,7 +68,7 @@ TEST(findings_report, a_pass_is_one_line_that_says_what_was_checked) {
     CheckResult result = some_result();
     result.findings.clear();
     EXPECT_EQ(issues_as_text(result, false),
-              "report.pdf: nothing to fix; checked as lab_report: 7 pages (limit: 6), unfilled slots.\n");
+              "report.pdf: nothing to fix; checked as lab_report: 7 pages (limit: 6), placeholder text.\n");
 }
 
 TEST(findings_report, color_only_when_asked_for) {

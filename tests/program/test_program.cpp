@@ -124,13 +124,34 @@ TEST(program, students_copy_has_no_solutions_and_its_report_works) {
     EXPECT_THAT(again.error_output, HasSubstr("already exists"));
 }
 
+TEST(program, commands_without_an_argument_use_the_current_folder_if_it_contains_work) {
+    const Workbench bench;
+    bench.write("mine/analysis.lua", "print(1)\n");
+    bench.write("mine/report.md", "---\ntitle: T\n---\n\nText\n");
+    for (const std::string command : {"report", "check", "preview"}) {
+        const ChildResult outside = bench.dynlab({command});
+        EXPECT_EQ(outside.exit_code, 2) << command;
+        EXPECT_THAT(
+            outside.error_output,
+            testing::StartsWith("dynlab: specify a folder or a script, for example: dynlab " + command + " mine\n"));
+    }
+    const ChildResult inside = bench.shell("cd mine && dynlab report && dynlab check");
+    EXPECT_TRUE(std::filesystem::exists(bench.path("mine/report.pdf"))) << inside.error_output;
+    EXPECT_THAT(inside.output, testing::HasSubstr("\nmine: "));
+}
+
 // oracle: the lesson's source
 TEST(program, commands_that_it_shows_can_be_copied_whatever_the_folder_is_called) {
     const Workbench bench;
     const std::string folder = "Mein Ordner Übung é";
     const ChildResult made = bench.dynlab({"new", "02", folder});
-    EXPECT_THAT(made.output,
-                testing::HasSubstr("Try:  dynlab run '" + folder + "'    then    dynlab report '" + folder + "'\n"));
+    std::string::size_type before = 0;
+    for (const std::string command : {"preview", "report", "check", "pack"}) {
+        const std::string::size_type here = made.output.find("\n  dynlab " + command + " '" + folder + "'  ");
+        EXPECT_NE(here, std::string::npos) << command << ":\n" << made.output;
+        EXPECT_GT(here, before) << command;
+        before = here;
+    }
     const ChildResult plain = bench.dynlab({"new", "review", "my-review"});
     EXPECT_THAT(plain.output, testing::HasSubstr("dynlab report my-review "));
     EXPECT_THAT(bench.dynlab({"hint", folder}).output, testing::HasSubstr("dynlab hint '" + folder + "' "));

@@ -64,6 +64,7 @@ CheckResult check_script(const fs::path& script, const CheckOptions& check_optio
     const auto renamed = [&](const std::string& text) {
         return replaced(replaced(replaced(text, "analysis.lua", name), "report.pdf", pdf), "FOLDER", name);
     };
+    for (Message& part : result.checked) part = with_changed_text(part, renamed);
     for (Issue& issue : result.findings) {
         issue.place = renamed(placed(issue.place));
         issue.what = with_changed_text(placed(issue.what), renamed);
@@ -115,8 +116,9 @@ int check(const CheckArguments& args) {
     } catch (const std::runtime_error& error) {
         return misuse(message_of(error));
     }
-    if (!fs::exists(args.subject)) return misuse(Message("file or folder not found: '{}'", args.subject));
-    const CheckResult result = check_work(args.subject, check_options);
+    if (!fs::exists(args.subject)) return misuse(no_such_work(args.subject));
+    CheckResult result = check_work(args.subject, check_options);
+    if (args.subject == ".") result.subject = fs::current_path().filename().string();
     std::cout << (args.as_json ? issues_as_json(result)
                                : issues_as_text(result, in_color(), reader_for(args.subject, result).reader()));
     return result.passed() ? kDone : kFailed;
@@ -127,10 +129,9 @@ int check(const CheckArguments& args) {
 void add_check(CLI::App& app, Action& action) {
     auto args = std::make_shared<CheckArguments>();
     CLI::App* command = app.add_subcommand("check", "Check a report for problems before submission");
-    command
-        ->add_option("FOLDER|FILE.lua|FILE.ipynb|FILE.pdf", args->subject,
-                     "Folder created by dynlab new, a script or notebook, or any PDF")
-        ->required();
+    command->add_option("FOLDER|FILE.lua|FILE.ipynb|FILE.pdf", args->subject,
+                        "Folder created by dynlab new, a script or notebook, or any PDF. Default: the current folder "
+                        "if it contains analysis.lua.");
     command->add_option("--template", args->template_name, "Template to check against, such as lab_report or slides")
         ->type_name("NAME|FILE.md");
     command->add_option("--roster", args->roster, "People to search for as well: columns id, name, email, group")
@@ -145,7 +146,7 @@ void add_check(CLI::App& app, Action& action) {
         "such\nas a session of dynlab app, is checked as a folder with the files that it names.\nThe template that "
         "analysis.lua specifies sets the rules. For a PDF alone, dynlab uses slides for wide pages,\npeer_review for "
         "the headings of a review, and lab_report for other documents. dynlab checks pages, sections, figures "
-        "that\nthe text does not mention, unfilled slots, languages, text size and margins. It searches for the "
+        "that\nthe text does not mention, placeholder text, languages, text size and margins. It searches for the "
         "members in\ngroup.toml and the people of a roster, and for home folders: in the text, bookmarks, link "
         "targets, document\ninformation and the file name (see dynlab help names).\nExamples:  dynlab check my-crane   "
         "  dynlab check report.pdf     dynlab check talk.pdf --template slides --json\nExit codes: 0 no rule is "
@@ -153,6 +154,7 @@ void add_check(CLI::App& app, Action& action) {
         "pages, passed, checked: [text],\n       findings: [{id, severity: \"rule\"|\"hint\", page, place, what, "
         "remedy}]}; unknown values are null.");
     command->callback([args, &action] {
+        use_current_folder_by_default(args->subject, "check");
         if (ending_of(args->subject) != ".pdf") expect_script(args->subject, "check");
         action = [args] { return check(*args); };
     });

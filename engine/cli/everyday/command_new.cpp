@@ -43,9 +43,10 @@ int make_new(const NewArguments& args) {
     if (args.lesson == "review") {
         make_review_folder(args.folder, args.language);
         say(
-            Message("{}: report.md contains the five questions, and analysis.lua contains the scores.\nNext:  dynlab "
-                    "report {}    and    dynlab check {}",
-                    args.folder, folder, folder));
+            Message("{}: report.md contains the five questions, and analysis.lua contains the scores.\nNext "
+                    "steps:\n  dynlab report {}    create the PDF of the review\n  dynlab check {}     list what is "
+                    "missing and what is wrong\n  dynlab pack {}      pack the folder into one file for submission",
+                    args.folder, folder, folder, folder));
         return kDone;
     }
     const Lesson lesson = find_lesson(args.lesson);
@@ -56,10 +57,12 @@ int make_new(const NewArguments& args) {
         make_student_copy(lesson, args.folder, args.group_seed, args.language, write_editor_files);
         note_made_folder(args.folder);
     }
-    say(
-        Message("{}: edit analysis.lua for your analysis and report.md for your text.\nTry:  dynlab run {}    then    "
-                "dynlab report {}",
-                args.folder, folder, folder));
+    say(Message(
+        "{}: edit analysis.lua for your analysis and report.md for your text.\nNext steps:\n  dynlab preview "
+        "{}    show the report in the browser while you work\n  dynlab report {}     create the PDF of the "
+        "report\n  dynlab check {}      list what is missing and what is wrong\n  dynlab pack {}       pack the "
+        "folder into one file for submission",
+        args.folder, folder, folder, folder, folder));
     return kDone;
 }
 

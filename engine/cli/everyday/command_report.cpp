@@ -26,10 +26,9 @@ int report(const ReportArguments& args) {
 void add_report(CLI::App& app, Action& action) {
     auto args = std::make_shared<ReportArguments>();
     CLI::App* command = app.add_subcommand("report", "Create the PDF of a lesson, your folder or your script");
-    command
-        ->add_option("LESSON|FOLDER|FILE.lua", args->subject,
-                     "Number or name of a lesson, folder created by dynlab new, or script")
-        ->required();
+    command->add_option("LESSON|FOLDER|FILE.lua", args->subject,
+                        "Number or name of a lesson, folder created by dynlab new, or script. Default: the current "
+                        "folder if it contains analysis.lua.");
     command
         ->add_option("-o,--output", args->output,
                      "Document to create (.pdf, .html or .md). Default: in the folder, in the script's folder, or for "
@@ -43,6 +42,7 @@ void add_report(CLI::App& app, Action& action) {
     args->sliders.add_to(*command);
     command->footer("Examples:  dynlab report 02     dynlab report my-work -o my-work.html");
     command->callback([args, &action] {
+        use_current_folder_by_default(args->subject, "report");
         expect_script(args->subject, "report");
         action = [args] { return report(*args); };
     });

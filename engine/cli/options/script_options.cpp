@@ -1,11 +1,14 @@
 #include "cli/options/script_options.h"
 
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <random>
+#include <set>
 
 #include "base/languages.h"
 #include "cli/say.h"
+#include "platform/terminal/terminal_text.h"
 #include "platform/text/read_number.h"
 #include "workflow/given_script.h"
 
@@ -26,6 +29,23 @@ void expect_script(const std::string& given, const std::string& command) {
     speak(language_of_work(given));
     if (const Message why = why_no_script(given, command); !why.empty())
         throw CLI::ValidationError(message_text(why, user()));
+}
+
+void use_current_folder_by_default(std::string& subject, const std::string& command) {
+    namespace fs = std::filesystem;
+    if (!subject.empty()) return;
+    std::error_code none;
+    if (fs::is_regular_file("analysis.lua", none)) {
+        subject = ".";
+        return;
+    }
+    std::set<std::string> works;
+    for (const auto& entry : fs::directory_iterator(".", none))
+        if (fs::is_regular_file(entry.path() / "analysis.lua", none)) works.insert(entry.path().filename().string());
+    throw CLI::ValidationError(
+        message_text(Message("specify a folder or a script, for example: dynlab {} {}", command,
+                             works.empty() ? std::string("my-work") : shell_word(*works.begin())),
+                     user()));
 }
 
 CLI::Option* add_language(CLI::App& command, std::string& language, const std::string& help) {

@@ -13,6 +13,10 @@ namespace dynlab::inline cli {
 /// (workflow/given_script.h).
 void expect_script(const std::string& given, const std::string& command);
 
+/// Without an argument, a command works on the current folder if it contains an analysis.lua. Throws the parser's error
+/// with an example otherwise.
+void use_current_folder_by_default(std::string& subject, const std::string& command);
+
 /// The option `--lang CODE`, which is the language of the program's messages, too.
 CLI::Option* add_language(CLI::App& command, std::string& language, const std::string& help);
 

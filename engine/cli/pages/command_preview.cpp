@@ -37,10 +37,9 @@ void add_preview(CLI::App& app, Action& action) {
     auto args = std::make_shared<PreviewArgs>();
     CLI::App* command =
         app.add_subcommand("preview", "Show a document in the browser; the page follows every change of its files");
-    command
-        ->add_option("LESSON|FOLDER|FILE.lua", args->options.document,
-                     "Script, folder with analysis.lua and report.md, or lesson")
-        ->required();
+    command->add_option("LESSON|FOLDER|FILE.lua", args->options.document,
+                        "Script, folder with analysis.lua and report.md, or lesson. Default: the current folder if it "
+                        "contains analysis.lua.");
     command->add_option("--port", args->options.port, "Port of the page. Default: a free port.")
         ->check(CLI::Range(1, 65535));
     command->add_flag("--edit", args->options.edit, "Show an editor for the script and the text next to the page");
@@ -49,6 +48,7 @@ void add_preview(CLI::App& app, Action& action) {
                       "Allow the scripts of this folder to run without asking, now and later");
     command->footer("Examples:  dynlab preview my-work     dynlab preview my-work --edit     dynlab preview 02");
     command->callback([args, &action] {
+        use_current_folder_by_default(args->options.document, "preview");
         expect_script(args->options.document, "preview");
         action = [args] { return show_preview(*args); };
     });

@@ -11,12 +11,12 @@
 #include "course/grading/feedback.h"
 #include "course/grading/folder_report.h"
 #include "course/grading/grading_rules.h"
+#include "course/grading/script_code.h"
 #include "course/intake/folder_copy.h"
 #include "course/intake/notebooks.h"
 #include "course/sandbox_jobs/sandbox_messages.h"
 #include "data_io/dataset_index.h"
 #include "documents/error.h"
-#include "documents/percent_script.h"
 #include "documents/solutions.h"
 #include "documents/template_file.h"
 #include "documents/text_lines.h"
@@ -95,6 +95,7 @@ class FolderCheck {
         const bool made = script && makes_report();
         if (script) {
             result_.lesson = script->header.lesson;
+            add_if_without_code(*script, kOwnScript, result_.findings);
             check_blanks(*script);
             check_ids(*script);
             check_stars(*script);

@@ -23,8 +23,8 @@ struct FolderLimits {
 /// * rules: analysis-missing, folder-too-large, file-outside (the analysis loads a file outside the folder),
 ///   analysis-fails, answer-open, answer-missing
 /// * hints: not-shown (reported, but without a place in the text), members-missing (group.toml contains no names),
-///   pdf-outdated, pdf-differs, link-left-out, and check-failed, by the checks of the lesson; these checks use the data
-///   sets of the group if the folder has some
+///   pdf-outdated, pdf-differs, link-left-out, script-empty, and check-failed, by the checks of the lesson; these
+///   checks use the data sets of the group if the folder has some
 /// The standard is the template in the header of analysis.lua, or the header of report.md if the template demands
 /// nothing.
 /// Throws MissingProgram if a program is missing on this machine.

@@ -113,7 +113,7 @@ void check_text(const PdfLayout& layout, const DocumentText& text, const Documen
         result.checked.push_back(plural(std::ssize(standard.rules.sections), "{} section", "{} sections"));
     result.checked.push_back(
         plural(static_cast<std::int64_t>(figures.figures), "{} numbered figure", "{} numbered figures"));
-    result.checked.push_back(Message("unfilled slots"));
+    result.checked.push_back(Message("placeholder text"));
     if (!result.language.empty())
         result.checked.push_back(result.language == "fr" ? Message("French only") : Message("English only"));
     result.checked.push_back(text.is_slides() ? Message("text size") : Message("text size and margins"));

@@ -95,6 +95,21 @@ class Writer {
     Reader reader_;
 };
 
+/// The work that is left before submission, in the words of its author: untouched questions are not errors.
+std::vector<Message> still_to_do(const CheckResult& result) {
+    std::int64_t answers = 0, questions = 0, problems = 0;
+    for (const Issue& issue : result.findings) {
+        const Counted counted = counted_as(issue);
+        if (counted == Counted::kAnswers) ++answers;
+        if (counted == Counted::kRules) ++(issue.id == "answer-open" ? questions : problems);
+    }
+    std::vector<Message> left;
+    if (answers > 0) left.push_back(plural(answers, "{} answer to submit", "{} answers to submit"));
+    if (questions > 0) left.push_back(plural(questions, "{} text to complete", "{} texts to complete"));
+    if (problems > 0) left.push_back(plural(problems, "{} problem to fix", "{} problems to fix"));
+    return left;
+}
+
 /// The outcome with nothing in its texts that a terminal would obey, and none of them too long.
 CheckResult printable_result(CheckResult result) {
     constexpr std::size_t kMaxLength = 4000;
@@ -114,20 +129,28 @@ CheckResult printable_result(CheckResult result) {
 
 std::string issues_as_text(const CheckResult& result, bool in_color, const Reader& reader) {
     const Writer writer(in_color, reader);
-    Message checked =
-        result.template_name.empty() ? Message("checked") : Message("checked as {}", printable(result.template_name));
-    if (!result.checked.empty()) checked = Message("{}: {}", checked, MessageList{result.checked});
-    const std::string subject = printable(result.subject);
+    const std::string subject = printable(result.subject), name = printable(result.template_name);
+    const auto with_parts = [&result](const Message& checked) {
+        return result.checked.empty() ? checked : Message("{}: {}", checked, MessageList{result.checked});
+    };
+    const Message checked = with_parts(name.empty() ? Message("checked") : Message("checked as {}", name));
     if (result.findings.empty())
         return writer.words(Message("{}: {}; {}.", subject,
                                     writer.styled(kGreen, writer.words(Message("nothing to fix"))), checked)) +
                "\n";
     const auto rules = std::count_if(result.findings.begin(), result.findings.end(),
                                      [](const Issue& issue) { return issue.severity == Severity::kRule; });
-    std::string text =
-        writer.words(result.checked.empty() ? Message::verbatim(writer.styled(kBold, subject))
-                                            : Message("{}: {}", writer.styled(kBold, subject), checked)) +
-        "\n";
+    const std::string bold_subject = writer.styled(kBold, subject);
+    std::string text;
+    if (const std::vector<Message> left = still_to_do(result); !left.empty()) {
+        text = writer.words(Message("{}: still to do: {}", bold_subject, MessageList{left, Join::kAnd})) + "\n";
+        if (!result.checked.empty())
+            text += writer.words(with_parts(name.empty() ? Message("Checked") : Message("Checked as {}", name))) + "\n";
+    } else {
+        text = writer.words(result.checked.empty() ? Message::verbatim(bold_subject)
+                                                   : Message("{}: {}", bold_subject, checked)) +
+               "\n";
+    }
     text += writer.group(result, Counted::kAnswers, kRed, Message("Missing answers"));
     text += writer.group(result, Counted::kRules, kRed, Message("Rules violated"));
     text += writer.group(result, Counted::kHints, kYellow, Message("Hints"));
