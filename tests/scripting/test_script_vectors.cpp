@@ -119,7 +119,7 @@ TEST(script_vectors, give_and_take_elements) {
     EXPECT_EQ(error_of("local v = vector{1, 2, 3}\nprint(v[4])"),
               "lesson.lua:2: v[4] does not exist: v has the elements 1 to 3");
     EXPECT_EQ(error_of("local v = vector{1, 2, 3}\nprint(v[0])"),
-              "lesson.lua:2: v[0] does not exist: v has the elements 1 to 3");
+              "lesson.lua:2: v[0] does not exist: v has the elements 1 to 3; the first element is v[1]");
     EXPECT_EQ(error_of("local v = vector{1, 2, 3}\nprint(v[1.5])"),
               "lesson.lua:2: v[1.5]: the index of an element must be a whole number from 1 to 3");
     EXPECT_EQ(

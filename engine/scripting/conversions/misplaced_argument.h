@@ -6,6 +6,7 @@
 #include "platform/text/small_letters.h"
 #include "scripting/conversions/arguments.h"
 #include "scripting/conversions/object_type.h"
+#include "scripting/runtime/kind_phrases.h"
 
 namespace dynlab::inline scripting {
 
