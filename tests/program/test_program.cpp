@@ -135,7 +135,7 @@ TEST(program, commands_without_an_argument_use_the_current_folder_if_it_contains
             outside.error_output,
             testing::StartsWith("dynlab: specify a folder or a script, for example: dynlab " + command + " mine\n"));
     }
-    const ChildResult inside = bench.shell("cd mine && dynlab report && dynlab check");
+    const ChildResult inside = bench.shell("cd mine && \"$DYNLAB\" report && \"$DYNLAB\" check");
     EXPECT_TRUE(std::filesystem::exists(bench.path("mine/report.pdf"))) << inside.error_output;
     EXPECT_THAT(inside.output, testing::HasSubstr("\nmine: "));
 }
