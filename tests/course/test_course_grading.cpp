@@ -225,6 +225,13 @@ TEST_F(course_grading, a_course_with_its_secret_and_checks_inside_can_be_moved) 
     EXPECT_THAT(before, HasSubstr("221,Kim Min-jun,group-01,graded,5,7,"));
     done({"export", "--json", "-o", "course.json"});
     done({"import", "course.json", "copy", "--from", "k"});
+    // An export that names a place outside brings nothing with it.
+    work().shell(
+        "mkdir a && echo outside > a/outside.txt && mkdir a/k && cp -r k/. a/k && "
+        "sed 's|\"secret.txt\"|\"../outside.txt\"|' course.json > hostile.json");
+    EXPECT_THAT(work().read("hostile.json"), HasSubstr("../outside.txt"));
+    done({"import", "hostile.json", "b/copy", "--from", "a/k"});
+    EXPECT_FALSE(std::filesystem::exists(work().path("b/outside.txt")));
     work().shell("mv k elsewhere && mv copy k");
     const ChildResult graded = grade({"--regrade"});
     EXPECT_EQ(graded.exit_code, 0) << graded.error_output;

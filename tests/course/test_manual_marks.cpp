@@ -189,7 +189,7 @@ TEST(manual_marks, of_students_on_the_roster_reach_the_gradebook_by_any_name) {
     work.write("roster.csv", "id,name,group\n1,Anna Lovelace,\n9,Bo Linwood,group-9\n");
     bench.submit_file("Anna Lovelace_900001_assignsubmission_file_", "answer('x', 1)\n");
     work.write("in/group-9.rar", "Rar!");
-    // The instructor writes the file anew each time, with other names for the same work.
+    // The instructor writes the complete file again each time, with other names for the same work.
     for (const auto& [anna, bo] : {std::pair("900001", "9"),
                                    {"Anna Lovelace", "group-9.rar"},
                                    {"1", "Group 9"},

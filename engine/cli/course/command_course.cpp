@@ -76,10 +76,11 @@ int import_people(const CourseArguments& where, const std::string& file, bool no
     return kDone;
 }
 
-int import_table(const CourseArguments& where, const std::string& assignment, const std::string& file) {
+int import_table(const CourseArguments& where, const std::string& assignment, const std::string& file,
+                 const std::string& at) {
     Course opened(where.folder);
     const Assignment a = assignment_named(opened, assignment);
-    const DeadlineImport done = import_deadlines(opened, a, file, CourseClock::now());
+    const DeadlineImport done = import_deadlines(opened, a, file, time_of(opened, at));
     for (const Message& complaint : done.complaints)
         std::cerr << "dynlab: " << terminal_text(message_text(complaint)) << '\n';
     std::cout << fmt::format("{}: {} extended, {} with another time of receipt.\n", a.name, done.extended,
@@ -112,14 +113,14 @@ void add_import(CLI::App& course, CourseArguments& where, Action& action) {
         "columns\n"
         "that are not in the file do not change. A student who moves keeps the marks of the group that the student "
         "submitted\n"
-        "with; give the day of the move with --at if that was before today.\n"
+        "with; --at gives the time of an earlier move.\n"
         "Examples:\n"
         "  dynlab course import roster.csv\n"
         "  dynlab course import deadlines.csv --deadlines lab4    with the columns of dynlab grade\n"
         "  dynlab course import course.json copy --from signals-2026    from course export --json");
     command->callback([&where, args, &action] {
         action = [&where, args]() -> int {
-            if (!args->assignment.empty()) return import_table(where, args->assignment, args->file);
+            if (!args->assignment.empty()) return import_table(where, args->assignment, args->file, args->at);
             if (args->folder.empty()) return import_people(where, args->file, args->no_groups, args->at);
             import_course(args->file, args->from, args->folder);
             std::cout << fmt::format("Course created in {} from {}.\n", args->folder, args->file);
@@ -160,13 +161,13 @@ struct AssignmentArguments {
     bool remove = false;
 };
 
-/// A path as it is found again from elsewhere; "none" takes it back.
-/// In the folder of the course relative to it, so that the course can be moved; else absolute.
+/// A path as it is found again from elsewhere: relative to the folder of the course if it is in it, so that the course
+/// can be moved, otherwise absolute. "none" takes it back.
 std::string lasting_path(const Course& course, const std::string& given) {
     if (given == "none") return "";
     const fs::path path = fs::absolute(given).lexically_normal(),
                    inside = path.lexically_relative(fs::absolute(course.folder()).lexically_normal());
-    return inside.empty() || *inside.begin() == ".." ? path.string() : inside.string();
+    return inside.empty() || inside == "." || *inside.begin() == ".." ? path.string() : inside.string();
 }
 
 /// Sets what was given.

@@ -183,6 +183,15 @@ void insert_row(Database& db, const std::string& table, const StoredRow& row) {
     statement.next();
 }
 
+/// Checks or a secret that lie in the folder of the course. An export may come from others: nothing is copied from or
+/// to another folder.
+void copy_own(const fs::path& from, const fs::path& folder, const std::string& place) {
+    const fs::path own = fs::path(place).lexically_normal();
+    if (own.empty() || own.is_absolute() || own == "." || *own.begin() == ".." || !fs::exists(from / own)) return;
+    fs::create_directories((folder / own).parent_path());
+    fs::copy(from / own, folder / own, fs::copy_options::recursive | fs::copy_options::skip_existing);
+}
+
 /// Makes the imported course in `folder`, an empty one: with the tables that the exported one had, which opening it
 /// then brings to today's.
 void fill_imported(const fs::path& folder, const fs::path& from, std::map<std::string, std::string>& settings,
@@ -209,11 +218,7 @@ void fill_imported(const fs::path& folder, const fs::path& from, std::map<std::s
     }
     Course course(folder);
     for (const Assignment& a : assignments_of(course))
-        for (const fs::path own : {a.checks, a.secret})
-            if (!own.empty() && own.is_relative() && fs::exists(from / own)) {
-                fs::create_directories((folder / own).parent_path());
-                fs::copy(from / own, folder / own, fs::copy_options::recursive | fs::copy_options::skip_existing);
-            }
+        copy_own(from, folder, a.checks), copy_own(from, folder, a.secret);
     std::vector<std::string> hashes;
     for (const fs::path& kept : submitted_files) hashes.push_back(course.keep(read_file(kept)));
     course.settle(hashes);
