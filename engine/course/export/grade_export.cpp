@@ -78,6 +78,8 @@ void refuse_changed_marks(Course& course, const std::string& assignment, const T
     for (const auto& [student, mark] : marks)
         if (mark.percent) changed.push_back(student);  // new since then
     if (changed.empty()) return;
+    constexpr std::size_t kShown = 5;
+    if (changed.size() > kShown) changed.resize(kShown), changed.emplace_back("others");
     throw EnvironmentError(
         "the marks of {} changed after the last grading. Run dynlab course grade {}, which also updates the feedback",
         listed(changed, Join::kAnd), assignment);
