@@ -22,13 +22,13 @@ namespace {
 
 /// Two columns of small type.
 constexpr const char* kSheetBegin = R"(\begin{document}
-\newgeometry{top=9mm,bottom=9mm,left=9mm,right=9mm,footskip=0mm,headheight=0mm,headsep=0mm}
+\newgeometry{top=8mm,bottom=8mm,left=8mm,right=8mm,footskip=0mm,headheight=0mm,headsep=0mm}
 \pagestyle{empty}
 \setlength{\columnsep}{5mm}\setlength{\parskip}{0pt}\raggedbottom
 \twocolumn[{\Large\bfseries\color{dlink}dynlab on two pages}\hfill{\small\color{dlfaint}
 \texttt{help("lsim")} or \texttt{dynlab help lsim} shows the help page of a function}\vspace{2mm}]
-\fontsize{6.5}{7.5}\selectfont\frenchspacing\raggedright\hyphenpenalty=10000\exhyphenpenalty=10000\thispagestyle{empty}
-\newcommand{\dynlabarea}[1]{\par\penalty-200\vspace{1.1mm}{\bfseries\color{dlink}#1}\par\nobreak}
+\fontsize{6.4}{7.1}\selectfont\frenchspacing\raggedright\hyphenpenalty=10000\exhyphenpenalty=10000\thispagestyle{empty}
+\newcommand{\dynlabarea}[1]{\par\penalty-200\vspace{0.6mm}{\bfseries\color{dlink}#1}\par\nobreak}
 \newcommand{\dynlabrow}[2]{{\hangindent=2em\hangafter=1\noindent\texttt{\color{dlkeyword}#1}\enspace #2\par}}
 )";
 

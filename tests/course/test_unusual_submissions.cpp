@@ -130,7 +130,7 @@ TEST(unusual_submissions, reports_are_held_against_what_their_lesson_asks_for) {
     for (const char* name : {"labs", "crane"}) {  // one of a lesson that asks for it, one without a lesson
         reported(bench.submit_file("group-01.pdf", small_pdf("The winning times"), kInTime, {"--assignment", name}));
         EXPECT_THAT(reported(bench.course({"findings", "group-01", "--assignment", name}), 1),
-                    HasSubstr("checked as lab_report"));
+                    HasSubstr("Checked as lab_report"));
     }
 }
 

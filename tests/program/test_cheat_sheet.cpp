@@ -27,7 +27,7 @@ TEST(cheat_sheet, holds_every_function_on_two_pages) {
     EXPECT_GT(functions, 120);
     for (const char* torn : {"\n=}", "\n=,", "`", "R_T", "\nu + ", "\nB/F"}) EXPECT_THAT(sheet, Not(HasSubstr(torn)));
     for (const char* phrase :
-         {"zeros(N,1), ones(N,1), eye(2)", "A:times(B)", "-- comment", "gt(x, 2)", "a && b, a || b"})
+         {"zeros(N,1), ones(N,1), zeros(2,3), eye(2)", "A:times(B)", "-- comment", "gt(x, 2)", "a && b, a || b"})
         EXPECT_THAT(sheet, HasSubstr(phrase));
 }
 
