@@ -185,13 +185,15 @@ class Column {
         if (back == 0 && 2 * equal >= clock_.t.size() - 1 && clock_.t.size() % 2 == 0 && in_pairs())
             return Message(
                 "{}: every time occurs twice. If the rows are the minimum and the maximum of an interval, average "
-                "them. If the clock is too coarse, specify the sampling time with --Ts of a command or with iddata(y, "
+                "them. If the clock is too coarse, specify the sampling time with the command-line option --Ts or with "
+                "iddata(y, "
                 "u, Ts)",
                 place);
         if (back == 0)
             return Message(
                 "{}. Number of rows with the same time as the previous row: {}. If rows were written twice, delete the "
-                "copies. If the clock is too coarse, specify the sampling time with --Ts of a command or with "
+                "copies. If the clock is too coarse, specify the sampling time with the command-line option --Ts or "
+                "with "
                 "iddata(y, u, Ts)",
                 place, equal);
         return Message("{}. If the recording was restarted or the clock was set, save each part in a separate file",

@@ -12,7 +12,10 @@ namespace {
 locale_t locale_of_utf8() {
     static const locale_t read = [] {
         const locale_t locale = ::newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr);
-        if (locale == nullptr) throw EnvironmentError("the C library has no locale C.UTF-8: {}", system_reason(errno));
+        if (locale == nullptr)
+            throw EnvironmentError(
+                "the locale C.UTF-8 is not available: {}. Install this locale (Debian: package libc-bin)",
+                system_reason(errno));
         return locale;
     }();
     return read;

@@ -196,7 +196,7 @@ TEST_F(corrections, an_assignment_is_removed_while_nothing_hangs_on_it) {
     EXPECT_THAT(done({"history"}), HasSubstr("assignment talk removed"));
     course_.submit_file("group-01.pdf", small_pdf("one"), "2026-03-01 10:00", {"--no-checks"});
     EXPECT_THAT(course({"assignment", "--remove", "crane", "--reason", "x"}).error_output,
-                HasSubstr("other data depend on the assignment (its submitted files)"));
+                HasSubstr("cannot be removed, because it already has submitted files"));
 }
 
 // oracle: the settings before and after, in the history

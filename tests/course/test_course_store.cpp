@@ -195,8 +195,8 @@ TEST(course_store, a_roster_changes_what_it_has_columns_for) {
     EXPECT_EQ(refused.exit_code, 1);
     EXPECT_THAT(
         refused.error_output,
-        AllOf(HasSubstr("the column \"group\" is missing; the columns are id, name, grp, email. Known columns are "
-                        "\"id\", \"name\", \"group\", \"email\" (or \"mail\"), \"moodle\" and \"canvas\""),
+        AllOf(HasSubstr("the column \"group\" is missing; the file has the columns id, name, grp, email. dynlab "
+                        "recognizes \"id\", \"name\", \"group\", \"email\" (or \"mail\"), \"moodle\" and \"canvas\""),
               HasSubstr("--no-groups")));
     EXPECT_EQ(bench.dump(), before);
     const ChildResult alone = import("id,name,grp\ns1,Ada King,1\ns3,Cy Ost,2\n", {"--no-groups"});

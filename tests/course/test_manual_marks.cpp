@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "base/reader.h"
-#include "course/checks/check_session.h"
+#include "course/grading/feedback.h"
 #include "course/grading_bench.h"
+#include "course/office/marks_join.h"
+#include "course/office/receive_class.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/temporary_folder.h"
@@ -16,149 +18,139 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// A class of four submissions: of two groups, of a student alone, and of two people of one name.
+/// A class of four submissions in a course: of two groups, of a student alone, and of two people of one name.
 class MarkedClass {
   public:
-    MarkedClass() {
-        work_.roster = true;
-        work_.students = {{"221", "Nguyễn Thị Minh Anh", "group-01", {}, "a@uni.eu", "901", ""},
-                          {"222", "Max Mustermann", "group-01", {}, "", "", ""},
-                          {"223", "Íñigo Úbeda", "group-02", {}, "", "", ""},
-                          {"224", "Wei Li", "", {}, "", "", ""},
-                          {"225", "Wei Li", "", {}, "", "", ""}};
-        add("Anh_901_assignsubmission_file_", "group-01", {0, 1});
-        add("02-final", "group-02", {2});
-        add("weili-224", "Wei Li", {3});
-        add("weili-225", "Wei Li", {4});
+    MarkedClass() : course_(created(out() / "course")) {
+        write_file_atomically(out() / "roster.csv",
+                              "id,name,group,email,moodle\n221,Nguyễn Thị Minh Anh,group-01,a@uni.eu,901\n222,Max "
+                              "Mustermann,group-01,,\n223,Íñigo Úbeda,group-02,,\n224,Wei Li,,,\n225,Wei Li,,,\n");
+        import_roster(course_, out() / "roster.csv", true);
+        Assignment lab;
+        lab.name = "lab", lab.kind = "lab", lab.lesson = "04";
+        set_assignment(course_, lab);
+        for (const char* name : {"Anh_901_assignsubmission_file_", "group_2_final", "weili-224", "weili-225"}) {
+            std::filesystem::create_directories(out() / "in" / name);
+            write_file_atomically(out() / "in" / name / "analysis.lua", std::string("-- of ") + name + "\n");
+        }
+        const ClassSubmissions submissions(out() / "in", Isolation::kProcess, DYNLAB_PROGRAM);
+        work_.emplace(course_, this->lab(), receive_class(course_, this->lab(), submissions, {}, CourseClock::now()));
     }
-    const ClassWork& work() const { return work_; }
     std::filesystem::path out() const { return folder_.path(); }
     void write(const std::string& rows) const {
         write_file_atomically(out() / kMarksFile, "who,check,points,reason\n" + rows);
     }
-    ManualMarks marks(bool above_maximum = false) const {
-        CheckDescription x, y;
-        x.id = "x", x.points = 4, y.id = "y", y.points = 6;
-        return {out(), work_, {x, y}, above_maximum};
-    }
-    /// The points of a submission on which both checks gave one point.
-    double points(const std::string& submission) const { return marks().applied(graded(submission)).earned(); }
-    std::string complaints() const {
+    /// What the rows that cannot be taken are told, a line each. The checks x and y have 4 and 6 points.
+    std::string join(double most_of_y = 6) {
         std::string text;
-        const ManualMarks given = marks();
-        for (const Message& sentence : given.complaints()) text += message_text(sentence) + "\n";
+        for (const Message& sentence :
+             join_marks_file(course_, lab(), *work_, {{"x", 4}, {"y", most_of_y}, {kWholeSubmission, 10}}, out(), true))
+            text += message_text(sentence) + "\n";
+        work_->take_marks(course_, lab());
         return text;
     }
-    static Grade graded(const std::string& submission) {
-        Grade grade;
-        grade.submission = submission;
-        for (const auto& [id, max_points] : {std::pair("x", 4.0), std::pair("y", 6.0)}) {
-            CheckGrade check;
-            check.id = id, check.points = max_points, check.earned = 1;
-            grade.checks.push_back(check);
-        }
-        return grade;
+    /// The marks of a submission as the feedback has them, and the gradebook too: "x 3.5 reason; y 2 ".
+    std::string given(const std::string& submission) {
+        join();
+        std::string text;
+        for (const WorkItem& item : work_->work().items)
+            if (item.submission.name == submission)
+                for (const auto& [check, mark] : item.given)
+                    text += (text.empty() ? "" : "; ") + check + " " + points_text(mark.points) + " " + mark.reason;
+        return text;
     }
 
   private:
-    void add(const std::string& name, const std::string& owner, std::vector<std::size_t> students) {
-        WorkItem item;
-        item.submission.name = name;
-        item.submission.path = "in/" + name + ".zip";
-        item.students = std::move(students);
-        item.addressee = owner;
-        work_.items.push_back(std::move(item));
+    static std::filesystem::path created(const std::filesystem::path& folder) {
+        Course::create(folder, "a class", "UTC");
+        return folder;
     }
+    Assignment lab() { return assignment_named(course_, "lab"); }
 
     TemporaryFolder folder_;
-    ClassWork work_;
+    Course course_;
+    std::optional<CourseWork> work_;
 };
 
 // oracle: the roster of the class; every unique identifier gives the same mark
 TEST(manual_marks, are_given_by_any_unique_identifier) {
-    const MarkedClass marked;
-    for (const char* who :
-         {"group-01", "Group 1", "221", "Nguyễn Thị Minh Anh", "Minh Anh Nguyen Thi", "a@uni.eu", "Max Mustermann",
-          "901", "Anh_901_assignsubmission_file_", "Anh_901_assignsubmission_file_.zip"}) {
-        marked.write(std::string(who) + ",x,3.5,\n");
-        EXPECT_EQ(marked.points("Anh_901_assignsubmission_file_"), 4.5) << who;
-        EXPECT_EQ(marked.points("02-final"), 2) << who;
-        EXPECT_EQ(marked.complaints(), "") << who;
+    MarkedClass marked;
+    for (const char* who : {"group-01", "Group 1", "221", "Nguyễn Thị Minh Anh", "Minh Anh Nguyen Thi", "a@uni.eu",
+                            "Max Mustermann", "901", "Anh_901_assignsubmission_file_"}) {
+        marked.write(std::string(who) + ",x,3.5,good\n");
+        EXPECT_EQ(marked.join(), "") << who;
+        EXPECT_EQ(marked.given("Anh_901_assignsubmission_file_"), "x 3.5 good") << who;
+        EXPECT_EQ(marked.given("group_2_final"), "") << who;
     }
 }
 
 // oracle: no student gets a mark that may belong to another one
 TEST(manual_marks, of_doubtful_rows_are_complained_of_with_their_line) {
-    const MarkedClass marked;
+    MarkedClass marked;
     marked.write("group-02,x,2,\nWei Li,x,3,\ngroup-7,x,1,\n221,z,1,\ngroup-01,y,7,\n");
-    EXPECT_THAT(marked.complaints(),
+    EXPECT_THAT(marked.join(),
                 AllOf(HasSubstr("marks.csv, line 3: \"Wei Li\" is ambiguous"),
                       HasSubstr("marks.csv, line 4: no submission, group or student is named \"group-7\""),
                       HasSubstr("marks.csv, line 5: unknown check \"z\" (for \"221\")"),
                       HasSubstr("line 6: \"group-01\" gets 7 points for the check \"y\", but the maximum is 6")));
-    EXPECT_EQ(marked.points("02-final"), 3);
-    EXPECT_EQ(marked.points("weili-224"), 2);
-    EXPECT_EQ(marked.points("Anh_901_assignsubmission_file_"), 2);
-    EXPECT_EQ(marked.marks(true).applied(MarkedClass::graded("Anh_901_assignsubmission_file_")).earned(), 8);
+    EXPECT_EQ(marked.given("group_2_final"), "x 2 ");
+    EXPECT_EQ(marked.given("weili-224"), "");
+    EXPECT_EQ(marked.given("Anh_901_assignsubmission_file_"), "");
+    EXPECT_THAT(marked.join(7), Not(HasSubstr("line 6")));
+    EXPECT_EQ(marked.given("Anh_901_assignsubmission_file_"), "y 7 ");
+    EXPECT_THAT(marked.join(), Not(HasSubstr("line 6"))) << "the course has it already";
 }
 
-// oracle: the mark that was written, of all points of the lesson
-TEST(manual_marks, of_the_whole_submission_replace_those_of_the_checks) {
-    const MarkedClass marked;
+// oracle: the maximum of both checks
+TEST(manual_marks, of_the_whole_submission_are_held_against_the_sum_of_all_checks) {
+    MarkedClass marked;
     marked.write("group-02,*,7.5,shown at the desk\n");
-    Grade grade = MarkedClass::graded("02-final");
-    grade.unreadable = true, grade.penalty = 2;
-    for (CheckGrade& check : grade.checks) check.graded = false;
-    const Grade whole = marked.marks().applied(grade);
-    EXPECT_EQ(whole.earned(), 7.5);
-    EXPECT_EQ(whole.possible(), 10);
-    EXPECT_TRUE(whole.whole());
-    EXPECT_FALSE(whole.without_marks());
+    EXPECT_EQ(marked.given("group_2_final"), "* 7.5 shown at the desk");
     marked.write("group-02,*,11,\n");
-    EXPECT_THAT(marked.complaints(), HasSubstr("gets 11 points for the check \"*\", but the maximum is 10"));
+    EXPECT_THAT(marked.join(), HasSubstr("gets 11 points for the check \"*\", but the maximum is 10"));
 }
 
 // oracle: issue found in a term: the next run deleted 28 marks that the instructor had typed in
 TEST(manual_marks, a_filled_row_is_never_lost) {
-    const MarkedClass marked;
-    const MarksFile::Row open{0, "02-final", "x", {}, ""};
+    MarkedClass marked;
+    const MarksFile::Row open{0, "group_2_final", "x", {}, ""};
     MarksFile(marked.out()).add({open, {0, "weili-224", "x", {}, ""}}, {{"4", "Question 3", "two reasons"}});
     EXPECT_EQ(read_file(marked.out() / kMarksFile),
-              "who,check,points,reason,of,about,rubric\r\n02-final,x,,,4,Question 3,two reasons\r\n"
+              "who,check,points,reason,of,about,rubric\r\ngroup_2_final,x,,,4,Question 3,two reasons\r\n"
               "weili-224,x,,,,,\r\n");
     // The instructor completes the file, with additional columns, semicolons and a decimal comma.
     write_file_atomically(marked.out() / kMarksFile,
-                          "note;who;check;points;reason\nmine;02-final;x;2,5;good\n;group-01;y;5;\n;;;;\n");
+                          "note;who;check;points;reason\nmine;group_2_final;x;2,5;good\n;group-01;y;5;\n;;;;\n");
     const std::string before = read_file(marked.out() / kMarksFile);
     MarksFile(marked.out()).add({open});
     EXPECT_EQ(read_file(marked.out() / kMarksFile), before) << "nothing is new";
-    EXPECT_EQ(marked.points("02-final"), 3.5);
+    EXPECT_EQ(marked.given("group_2_final"), "x 2.5 good");
     MarksFile(marked.out()).add({open, {0, "weili-225", "x", {}, ""}});
     EXPECT_THAT(read_file(marked.out() / kMarksFile),
-                AllOf(HasSubstr("mine,02-final,x,\"2,5\",good\r\n"), HasSubstr(",group-01,y,5,\r\n"),
+                AllOf(HasSubstr("mine,group_2_final,x,\"2,5\",good\r\n"), HasSubstr(",group-01,y,5,\r\n"),
                       HasSubstr(",weili-225,x,,\r\n")));
-    EXPECT_EQ(marked.points("02-final"), 3.5);
-    EXPECT_EQ(marked.points("Anh_901_assignsubmission_file_"), 6);
+    EXPECT_EQ(marked.given("group_2_final"), "x 2.5 good");
+    EXPECT_EQ(marked.given("Anh_901_assignsubmission_file_"), "y 5 ");
 }
 
 // oracle: the files of earlier versions; what is in marks.csv already stays
 TEST(manual_marks, of_earlier_versions_are_taken_in_once) {
-    const MarkedClass marked;
+    MarkedClass marked;
     const auto write = [&](const char* file, const std::string& text) {
         write_file_atomically(marked.out() / file, text);
     };
-    write("manual.csv", "submission,check,points,reason\n02-final,x,3,old\nweili-224,y,,not yet\n");
+    write("manual.csv", "submission,check,points,reason\ngroup_2_final,x,3,old\nweili-224,y,,not yet\n");
     write("by_hand.csv", "submission,check,points,comment,of,about,rubric\nweili-225,x,2,typed here,4,Q,\n");
-    EXPECT_EQ(marked.points("02-final"), 4);
-    EXPECT_EQ(marked.points("weili-225"), 3);
+    EXPECT_EQ(marked.given("group_2_final"), "x 3 old");
+    EXPECT_EQ(marked.given("weili-225"), "x 2 typed here");
     EXPECT_FALSE(std::filesystem::exists(marked.out() / "manual.csv"));
     EXPECT_TRUE(std::filesystem::exists(marked.out() / "manual.csv.imported"));
     EXPECT_THAT(read_file(marked.out() / "by_hand.csv.imported"), HasSubstr("typed here"));
-    write("manual.csv", "submission,check,points,reason\n02-final,x,1,later\n02-final,y,5,later\n");
-    EXPECT_EQ(marked.points("02-final"), 8) << "x stays";
+    write("manual.csv", "submission,check,points,reason\ngroup_2_final,x,1,later\ngroup_2_final,y,5,later\n");
+    EXPECT_EQ(marked.given("group_2_final"), "x 3 old; y 5 later") << "x stays";
     EXPECT_TRUE(std::filesystem::exists(marked.out() / "manual.csv.imported-2"));
-    write("manual.csv", "submission,check,points\n02-final,x,many\n");
-    EXPECT_THROW(marked.marks(), EnvironmentError);
+    write("manual.csv", "submission,check,points\ngroup_2_final,x,many\n");
+    EXPECT_THROW(marked.join(), EnvironmentError);
     EXPECT_TRUE(std::filesystem::exists(marked.out() / "manual.csv")) << "to be corrected";
 }
 

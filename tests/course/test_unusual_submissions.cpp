@@ -103,8 +103,8 @@ TEST(unusual_submissions, another_time_of_a_known_file_is_reported) {
     EXPECT_THAT(receive({}), ContainsRegex("group-01 +report +v1 +late by 7 h"));
     EXPECT_THAT(
         receive({"--times", "times.csv"}),
-        AllOf(ContainsRegex("group-01 .*already received; according to --times, the file arrived Sun 2026-03-01 "
-                            "11:30: correct the time with dynlab course set-received"),
+        AllOf(ContainsRegex("group-01 .*already received; according to --times, the file arrived on Sun 2026-03-01 "
+                            "11:30; to correct the recorded time, run dynlab course set-received"),
               ContainsRegex("group-02 .*already received; nothing changed")));
     reported(
         bench.course({"set-received", "crane", "group-01", "2026-03-01 11:30", "--reason", "the platform's list"}));

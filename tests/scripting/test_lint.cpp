@@ -57,7 +57,7 @@ const Planted kPlanted[] = {
     {"report.valeu(\"a\", 3)\n       ^", "unknown-name", "did you mean 'value'"},
     {"print(string.fromat(\"%d\", 3))\n             ^", "unknown-name", "did you mean 'format'"},
     {"print(math.mean({1, 2}))\n           ^", "unknown-name", "write mean(x), without math"},
-    {"np.zeros(3)\n^", "unknown-name", "without np"},
+    {"np.zeros(3)\n^", "unknown-name", "omit the prefix np"},
     {"x = 1\nx.y = yy\n      ^", "unknown-name", "'yy'"},
     // functions that are given another value
     {"mean = 3\n^", "library-name", "local mean"},

@@ -208,7 +208,8 @@ $("make-pdf").onclick = async () => {
   showState();
   try {
     await inTurn(() => {});  // what was asked for and typed is in it
-    await fillReport();
+    const filled = await fillReport();
+    if (filled) await settled(() => session.revision >= filled, 20000);  // later news would take away what is said below
     await settled(() => session.shown === session.revision && !session.running, 3000);
     await takeReport();
   } catch (error) {

@@ -39,7 +39,8 @@ Message remark(const Received& r) {
     if (r.withdrawn) return Message("already received and withdrawn; to reinstate the file, run dynlab course restore");
     if (!r.other_time.empty())
         return Message(
-            "already received; according to --times, the file arrived {}: correct the time with dynlab course "
+            "already received; according to --times, the file arrived on {}; to correct the recorded time, run dynlab "
+            "course "
             "set-received",
             r.other_time);
     if (r.known) return Message("already received; nothing changed");

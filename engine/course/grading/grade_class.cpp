@@ -50,7 +50,6 @@ class ClassGrader {
     GradingOutcome conclude(const std::function<std::vector<CountedMark>()>& count) {
         take_earlier_results();
         marks_ = count();
-        for (const Message& sentence : pipeline_.manual().complaints()) outcome_.complaints.push_back(sentence);
         say_which_counts();
         // Threads end in any order.
         std::ranges::sort(outcome_.complaints, {}, [](const Message& complaint) { return message_text(complaint); });

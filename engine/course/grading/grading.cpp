@@ -13,11 +13,34 @@ namespace dynlab::inline course {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+Message said(const ManualMark& mark) {
+    return mark.reason.empty() ? Message("Marked by the instructor.") : Message::verbatim(mark.reason);
+}
+
+/// The instructor's marks replace what the checks gave.
+Grade with_manual_marks(Grade grade, const std::map<std::string, ManualMark>& given) {
+    for (CheckGrade& check : grade.checks) {
+        const auto mark = given.find(check.id);
+        if (mark == given.end()) continue;
+        check.earned = mark->second.points;
+        check.graded = check.visible = true;
+        check.message = said(mark->second);
+    }
+    if (const auto mark = given.find(kWholeSubmission); mark != given.end()) {
+        grade.whole_mark = mark->second.points;
+        grade.whole_reason = said(mark->second);
+    }
+    return grade;
+}
+
+}  // namespace
+
 GradingPipeline::GradingPipeline(const GradingRules& rules, const GradingOptions& options, const ClassWork& work)
     : rules_(rules),
       options_(options),
       newest_counts_(work.newest_counts),
-      manual_(options.out, work, rules.checks(), options.above_maximum),
       documents_(options.setup.isolation, options.setup.program) {}
 
 std::optional<Grade> GradingPipeline::cached_grade(const WorkItem& item, const std::string& key) const {
@@ -64,7 +87,7 @@ GradingPipeline::Finished GradingPipeline::finish(const WorkItem& item, Grade gr
     grade.late_hours = item.lateness.hours;
     grade.lateness = item.lateness.reason;
     grade.penalty = 0;
-    Grade marked = manual_.applied(grade);
+    Grade marked = with_manual_marks(grade, item.given);
     if (!marked.whole_mark) grade.penalty = marked.penalty = marked.earned() * item.lateness.percent / 100;
     Message error_reason = write_files(item, grade, marked, again);
     return {std::move(marked), std::move(error_reason)};

@@ -65,7 +65,6 @@ class GradingPipeline {
         return options_.out / "results" / item.submission.name;
     }
     const GradingRules& rules() const { return rules_; }
-    const ManualMarks& manual() const { return manual_; }
     const SandboxedDocuments& documents() const { return documents_; }
 
   private:
@@ -75,7 +74,6 @@ class GradingPipeline {
     const GradingRules& rules_;
     const GradingOptions& options_;
     bool newest_counts_;
-    ManualMarks manual_;
     SandboxedDocuments documents_;
 };
 

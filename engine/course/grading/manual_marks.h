@@ -5,14 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "course/grading/grade.h"
 #include "course/grading/work_item.h"
 #include "course/intake/owners.h"
 #include "data_io/text_table.h"
 
 namespace dynlab::inline course {
-
-struct CheckDescription;
 
 /// The file of the instructor's own marks in a folder of results.
 inline constexpr char kMarksFile[] = "marks.csv";
@@ -69,26 +66,6 @@ class MarkedItems {
 
     const ClassWork& work_;
     Owners owners_;
-};
-
-/// What these rows say of the submissions of a class. They replace what the checks gave and survive every regrade.
-class ManualMarks {
-  public:
-    /// A mark above the points of its check is taken only with `above_maximum`, or if the course has it already.
-    ManualMarks(const std::filesystem::path& results, const ClassWork& work,
-                const std::vector<CheckDescription>& checks, bool above_maximum);
-
-    Grade applied(Grade grade) const;
-    /// A sentence for each row that matches no submission or no check, matches several, or is above the maximum.
-    const std::vector<Message>& complaints() const { return complaints_; }
-
-  private:
-    struct Mark {
-        double points;
-        std::string reason;
-    };
-    std::map<std::pair<std::string, std::string>, Mark> marks_;  ///< by submission and check
-    std::vector<Message> complaints_;
 };
 
 }  // namespace dynlab::inline course

@@ -19,21 +19,27 @@ struct Lateness {
     double waiting_percent = 0;     ///< not applied until the instructor confirms it (late_penalties.h)
 };
 
+/// Points that the instructor gave, and why.
+struct ManualMark {
+    double points = 0;
+    std::string reason;  ///< which the student reads; may be empty
+};
+
 /// A submission to grade, with what a course knows of it.
 struct WorkItem {
-    Submission submission;                ///< its name, which no other in the class has, and its files
-    Message unreadable;                   ///< why it cannot be graded, a sentence; as a rule empty
-    std::string content;                  ///< SHA-256 of all that was submitted; empty where that is not known
-    std::int64_t version = 0;             ///< its id in the store of the course; 0: it could not be kept
-    std::int64_t group_id = 0;            ///< of that version
-    std::vector<std::size_t> students;    ///< whose it is: places in ClassWork::students
-    std::string group;                    ///< empty for a student without one
-    Message unmatched;                    ///< why it belongs to no student; empty where it does
-    std::string addressee;                ///< whom the feedback is for; the submission's name where empty
-    std::string language;                 ///< of the feedback; that of the work where empty
-    std::optional<std::uint32_t> seed;    ///< of the group's own data sets; nothing for the data of all
-    std::map<std::string, double> given;  ///< points that the instructor gave in the course, by check
-    std::int64_t received = 0;            ///< seconds since 1970; needed where the newest counts
+    Submission submission;                    ///< its name, which no other in the class has, and its files
+    Message unreadable;                       ///< why it cannot be graded, a sentence; as a rule empty
+    std::string content;                      ///< SHA-256 of all that was submitted; empty where that is not known
+    std::int64_t version = 0;                 ///< its id in the store of the course; 0: it could not be kept
+    std::int64_t group_id = 0;                ///< of that version
+    std::vector<std::size_t> students;        ///< whose it is: places in ClassWork::students
+    std::string group;                        ///< empty for a student without one
+    Message unmatched;                        ///< why it belongs to no student; empty where it does
+    std::string addressee;                    ///< whom the feedback is for; the submission's name where empty
+    std::string language;                     ///< of the feedback; that of the work where empty
+    std::optional<std::uint32_t> seed;        ///< of the group's own data sets; nothing for the data of all
+    std::map<std::string, ManualMark> given;  ///< by check, or by * for the whole submission
+    std::int64_t received = 0;                ///< seconds since 1970; needed where the newest counts
     Lateness lateness;
 };
 

@@ -47,15 +47,15 @@ Message too_small(double size, bool slides, const std::vector<int>& pages) {
     const MessageList where = list_of(pages);
     if (pages.size() == 1)
         return slides ? Message(
-                            "The text size, measured on a slide 96 mm high, is only {} pt, but at least {} pt are "
+                            "The text size, measured on a slide 96 mm high, is only {} pt, but at least {} pt is "
                             "required.",
                             found, kMinTextSize)
-                      : Message("The text size is only {} pt, but at least {} pt are required.", found, kMinTextSize);
+                      : Message("The text size is only {} pt, but at least {} pt is required.", found, kMinTextSize);
     return slides ? Message(
                         "The text size, measured on a slide 96 mm high, is only {} pt (pages {}), but at least {} pt "
-                        "are required.",
+                        "is required.",
                         found, where, kMinTextSize)
-                  : Message("The text size is only {} pt (pages {}), but at least {} pt are required.", found, where,
+                  : Message("The text size is only {} pt (pages {}), but at least {} pt is required.", found, where,
                             kMinTextSize);
 }
 

@@ -32,9 +32,6 @@ struct ResultsCourse {
 };
 std::optional<ResultsCourse> course_of_results(const std::filesystem::path& results);
 
-/// Id of the newest mark when marks.csv and the store were last brought together; nothing before the first time.
-std::optional<std::int64_t> newest_joined_mark(Course& course, const Assignment& assignment);
-
 // Its steps, which folder_grading.h takes too.
 
 /// The secret from which hidden data sets are generated. Throws EnvironmentError if the file is missing or empty.
@@ -42,8 +39,9 @@ std::string secret_in(const std::filesystem::path& file);
 /// Throws InvalidArgument for an assignment that is no lab, EnvironmentError for an empty secret.
 GradingOptions grading_options(const Course& course, const Assignment& assignment, const CourseGradingRequest& request,
                                const std::filesystem::path& out);
-/// Brings marks.csv and the marks of the store together. `file_alone`: a row that is taken out takes its mark back.
-void join_marks(Course& course, const Assignment& assignment, const CourseWork& work, const EvaluatedRules& evaluated,
+/// Brings marks.csv, the marks of the store and those of the work together. `file_alone`: a row that is taken out takes
+/// its mark back.
+void join_marks(Course& course, const Assignment& assignment, CourseWork& work, const EvaluatedRules& evaluated,
                 const GradingOptions& options, bool file_alone);
 /// Enters what the checks gave.
 void save_results(Course& course, const Assignment& assignment, const CourseWork& work,

@@ -9,6 +9,7 @@
 #include "base/reader.h"
 #include "course/grading/manual_marks.h"
 #include "course/office/course_grading.h"
+#include "course/office/marks_join.h"
 #include "course/review/review_pairs.h"
 #include "course/store/assignments.h"
 #include "course/store/groups.h"

@@ -28,7 +28,6 @@ std::vector<CourseWork::Stored> CourseWork::read(Course& course, const Assignmen
     work_.roster = !work_.students.empty();
     work_.newest_counts = assignment.keep == "newest";
     for (const Group& group : groups_of_authors(course, assignment)) groups_.emplace(group.id, group);
-    given_ = marks_in_force(course, assignment);
     std::vector<Stored> versions;
     for (Rows rows = course.database().query(
              "SELECT id, group_id, number, part, hash, name, received_at, first_at, due_at, EXISTS (SELECT 1 FROM "
@@ -43,16 +42,16 @@ std::vector<CourseWork::Stored> CourseWork::read(Course& course, const Assignmen
         versions.push_back({rows.integer(0), rows.integer(1), rows.integer(2), rows.text(3), rows.text(4), rows.text(5),
                             rows.integer(6), rows.integer(7), rows.integer(8), rows.integer(9) != 0, seen.reason});
     }
-    say_what_a_mark_covers(course, assignment.name, versions);
+    say_what_a_mark_covers(course, assignment, versions);
     work_.deadlines = assignment.first_due != kNoDeadline ||
                       std::ranges::any_of(versions, [](const Stored& v) { return v.due != kNoDeadline; });
     return versions;
 }
 
 /// A mark for the complete submission also holds for a version that came later.
-void CourseWork::say_what_a_mark_covers(Course& course, const std::string& assignment,
+void CourseWork::say_what_a_mark_covers(Course& course, const Assignment& assignment,
                                         const std::vector<Stored>& versions) {
-    for (const GivenMark& mark : given_) {
+    for (const GivenMark& mark : marks_in_force(course, assignment)) {
         if (mark.item != kWholeItem || mark.version != 0 || !mark.student.empty()) continue;
         Rows made = course.database().query("SELECT made_at FROM marks WHERE id = ?", mark.id);
         if (!made.next()) continue;
@@ -62,12 +61,13 @@ void CourseWork::say_what_a_mark_covers(Course& course, const std::string& assig
                     "\"{}\" came after you marked the complete submission; your mark of {} still counts. To count "
                     "the new submission instead, withdraw your mark (dynlab course withdraw {} {} --mark \"*\")",
                     name_of(groups_.at(version.group), version.part, version.number), points_text(*mark.points),
-                    assignment, groups_.at(version.group).name));
+                    assignment.name, groups_.at(version.group).name));
     }
 }
 
 CourseWork::CourseWork(Course& course, const Assignment& assignment) {
     for (const Stored& version : read(course, assignment)) add(course, version, assignment);
+    take_marks(course, assignment);
     conclude_lateness(work_);
 }
 
@@ -86,15 +86,25 @@ CourseWork::CourseWork(Course& course, const Assignment& assignment, const Recei
         address(item);
         work_.items.push_back(std::move(item));
     }
-    work_.complaints = received.complaints;
+    take_marks(course, assignment, received.complaints);
     conclude_lateness(work_);
+}
+
+void CourseWork::take_marks(Course& course, const Assignment& assignment, std::vector<Message> complaints) {
+    std::ranges::move(complaints, std::back_inserter(work_.complaints));
+    const std::vector<GivenMark> marks = marks_in_force(course, assignment);
+    for (WorkItem& item : work_.items) {
+        item.given.clear();
+        for (const bool of_version : {false, true})  // the latter go before those of all versions
+            for (const GivenMark& mark : marks)
+                if (mark.student.empty() && mark.group == item.group_id && (mark.version != 0) == of_version &&
+                    (!of_version || mark.version == item.version))
+                    item.given[mark.item] = {*mark.points, mark.reason};
+    }
 }
 
 void CourseWork::date(WorkItem& item, const Stored& version, const Assignment& assignment) const {
     item.received = version.received;
-    for (const GivenMark& mark : given_)
-        if (mark.student.empty() && mark.group == version.group && (mark.version == 0 || mark.version == version.id))
-            item.given[mark.item] = *mark.points;
     const Costs& costs = assignment.costs;
     item.lateness = lateness_of({version.due, assignment.grace, costs.late_day, costs.late_max}, version.first);
     if (needs_confirmation(item.lateness) && !version.confirmed) item.lateness = unconfirmed(item.lateness);
@@ -169,13 +179,12 @@ std::vector<const WorkItem*> CourseWork::waiting() const {
     return items;
 }
 
-std::optional<CourseWork::Marked> CourseWork::marked_by(Course& course, const MarkedItems& items,
+std::optional<CourseWork::Marked> CourseWork::marked_by(Course& course, const MarkedItems::Found& found,
                                                         const std::string& who) {
-    const MarkedItems::Found found = items.find(who);
     if (!found.error_reason.empty()) return {};
     if (!found.items.empty()) {
         const WorkItem& item = *found.items.front();
-        if (item.group_id == 0) return {};  // it could not be kept
+        if (item.group_id == 0) return {};  // it could not be kept, and has no owner
         return Marked{item.group_id, found.by_name ? item.version : 0};
     }
     try {

@@ -35,7 +35,9 @@ class CourseWork {
         std::int64_t group = 0, version = 0;
         auto operator<=>(const Marked&) const = default;
     };
-    static std::optional<Marked> marked_by(Course& course, const MarkedItems& items, const std::string& who);
+    static std::optional<Marked> marked_by(Course& course, const MarkedItems::Found& found, const std::string& who);
+    /// The instructor's marks as they are in the course now. `complaints`: about those that it does not have.
+    void take_marks(Course& course, const Assignment& assignment, std::vector<Message> complaints = {});
     /// Names under which a mark is in marks.csv: of its version, of each version of its group, or of the group where it
     /// submitted nothing.
     std::vector<std::string> names_of(std::int64_t group, std::int64_t version) const;
@@ -50,7 +52,7 @@ class CourseWork {
         Message reason;                            ///< why it cannot be read
     };
     std::vector<Stored> read(Course& course, const Assignment& assignment);
-    void say_what_a_mark_covers(Course& course, const std::string& assignment, const std::vector<Stored>& versions);
+    void say_what_a_mark_covers(Course& course, const Assignment& assignment, const std::vector<Stored>& versions);
     void date(WorkItem& item, const Stored& version, const Assignment& assignment) const;
     void add(Course& course, const Stored& version, const Assignment& assignment);
     void address(WorkItem& item) const;
@@ -58,7 +60,6 @@ class CourseWork {
     TemporaryFolder files_;
     ClassWork work_;
     std::map<std::int64_t, Group> groups_;
-    std::vector<GivenMark> given_;
 };
 
 }  // namespace dynlab::inline course

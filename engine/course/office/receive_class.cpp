@@ -136,8 +136,11 @@ class ClassReceiver {
         bool refused = !left_out_.empty();
         for (std::size_t i = 0; i < files_.size(); ++i) {
             WorkItem& one = received_.items[i];
-            refused = refused || !files_[i].error_reason.empty();
-            if (!files_[i].error_reason.empty()) continue;
+            if (!files_[i].error_reason.empty()) {
+                refused = true;
+                if (const Group* const owner = group_of_owner(one)) one.group_id = owner->id;
+                continue;
+            }
             std::set<Instant> received;  // then, and as it was corrected
             if (is_known(one, received)) {
                 if (is_with_other_group(one)) moved.push_back(i);

@@ -190,9 +190,8 @@ void remove_assignment(Course& course, const Assignment& assignment, const std::
                                                            {"marks", Message("marks")}};
     for (const auto& [table, what] : kDependents)
         if (db.query(fmt::format("SELECT 1 FROM {} WHERE assignment = ?", table), assignment.id).next())
-            throw InvalidArgument(
-                "{} cannot be removed, because other data depend on the assignment (its {}); nothing was changed",
-                assignment.name, what);
+            throw InvalidArgument("the assignment {} cannot be removed, because it already has {}; nothing was changed",
+                                  assignment.name, what);
     for (const char* table : {"criteria", "pair_wishes", "holds", "pseudonyms", "allocations"})
         db.run(fmt::format("DELETE FROM {} WHERE assignment = ?", table), assignment.id);
     db.run("DELETE FROM assignments WHERE id = ?", assignment.id);

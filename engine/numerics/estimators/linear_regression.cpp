@@ -26,7 +26,8 @@ Solution solve_normal_equations(const MatrixView& Phi, const VectorView& y) {
     const auto solution = solve_by_cholesky(gram, Phi.transpose() * y);
     if (!inverse || inverse->reciprocal_condition < std::numeric_limits<double>::epsilon())
         throw InvalidArgument(
-            "The normal equations have no unique solution to working accuracy, because the columns of Phi are linearly "
+            "The normal equations have no unique solution to working precision, because the columns of Phi are "
+            "linearly "
             "dependent or differ too much in scale. Use the method \"qr\", or center and scale the regressors");
     return {solution->x, inverse->x};
 }

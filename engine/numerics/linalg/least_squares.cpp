@@ -11,7 +11,7 @@ namespace {
 
 void check_sizes(const MatrixView& A, const VectorView& b) {
     if (A.rows() != b.size())
-        throw InvalidArgument("least squares: the matrix has {} but the right-hand side has {}",
+        throw InvalidArgument("least squares: the matrix has {}, but the right-hand side has {}",
                               plural(A.rows(), "{} row", "{} rows"), plural(b.size(), "{} value", "{} values"));
     if (A.cols() == 0) throw InvalidArgument("least squares: the matrix has no columns");
     if (A.rows() < A.cols())

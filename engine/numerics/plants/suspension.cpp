@@ -18,8 +18,10 @@ void SuspensionParameters::validate() const {
         throw InvalidArgument("The step height of the suspension must be finite and nonzero");
     if (damping * damping >= 4 * stiffness * mass)
         throw InvalidArgument(
-            "The damping of the suspension must be less than 2*sqrt(stiffness*mass); otherwise, the suspension does "
-            "not oscillate");
+            "The damping of the suspension must be less than 2*sqrt(stiffness*mass) = {}, but is {}; otherwise, the "
+            "suspension does "
+            "not oscillate",
+            significant(2 * std::sqrt(stiffness * mass), 6), significant(damping, 6));
 }
 
 SuspensionTruth suspension_truth(const SuspensionParameters& p) {

@@ -59,10 +59,14 @@ Message infinite(SignalName name, Index sample, Index channel) {
 }
 
 Message too_large(SignalName name) {
-    return of(name, {{Message("the sum of the samples of the input overflows: use another unit"),
-                      Message("the sum of the samples of the output overflows: use another unit"),
-                      Message("the sum of the samples of the reference overflows: use another unit"),
-                      Message("the sum of the samples of the signal overflows: use another unit")}});
+    return of(
+        name,
+        {{Message("the sum of the samples of the input overflows: use a larger unit, so that the values are smaller"),
+          Message("the sum of the samples of the output overflows: use a larger unit, so that the values are smaller"),
+          Message(
+              "the sum of the samples of the reference overflows: use a larger unit, so that the values are smaller"),
+          Message(
+              "the sum of the samples of the signal overflows: use a larger unit, so that the values are smaller")}});
 }
 
 Message no_samples(SignalName name) {
@@ -71,29 +75,33 @@ Message no_samples(SignalName name) {
 }
 
 Message largest_too_small(SignalName name, double largest) {
-    return of(
-        name,
-        {{Message("the largest sample of the input is {}, which is too small for sums of squares: use another unit",
-                  largest),
-          Message("the largest sample of the output is {}, which is too small for sums of squares: use another unit",
-                  largest),
-          Message("the largest sample of the reference is {}, which is too small for sums of squares: use another unit",
-                  largest),
-          Message("the largest sample of the signal is {}, which is too small for sums of squares: use another unit",
-                  largest)}});
+    return of(name, {{Message("the largest sample of the input is {}, which is too small for sums of squares: use a "
+                              "smaller unit, so that the values are larger",
+                              largest),
+                      Message("the largest sample of the output is {}, which is too small for sums of squares: use a "
+                              "smaller unit, so that the values are larger",
+                              largest),
+                      Message("the largest sample of the reference is {}, which is too small for sums of squares: use "
+                              "a smaller unit, so that the values are larger",
+                              largest),
+                      Message("the largest sample of the signal is {}, which is too small for sums of squares: use a "
+                              "smaller unit, so that the values are larger",
+                              largest)}});
 }
 
 Message largest_too_large(SignalName name, double largest) {
-    return of(
-        name,
-        {{Message("the largest sample of the input is {}, which is too large for sums of squares: use another unit",
-                  largest),
-          Message("the largest sample of the output is {}, which is too large for sums of squares: use another unit",
-                  largest),
-          Message("the largest sample of the reference is {}, which is too large for sums of squares: use another unit",
-                  largest),
-          Message("the largest sample of the signal is {}, which is too large for sums of squares: use another unit",
-                  largest)}});
+    return of(name, {{Message("the largest sample of the input is {}, which is too large for sums of squares: use a "
+                              "larger unit, so that the values are smaller",
+                              largest),
+                      Message("the largest sample of the output is {}, which is too large for sums of squares: use a "
+                              "larger unit, so that the values are smaller",
+                              largest),
+                      Message("the largest sample of the reference is {}, which is too large for sums of squares: use "
+                              "a larger unit, so that the values are smaller",
+                              largest),
+                      Message("the largest sample of the signal is {}, which is too large for sums of squares: use a "
+                              "larger unit, so that the values are smaller",
+                              largest)}});
 }
 
 Message error_in_sample(SignalName name, const MatrixView& samples) {

@@ -15,7 +15,7 @@ void check_channels(const Matrix& y, const Matrix& u) {
     if (y.cols() == 0 && u.cols() == 0)
         throw InvalidArgument("iddata: the data need at least one output, or, for a simulation, at least one input");
     if (u.cols() > 0 && u.rows() != y.rows())
-        throw InvalidArgument("iddata: the output has {} but the input has {}",
+        throw InvalidArgument("iddata: the output has {}, but the input has {}",
                               plural(y.rows(), "{} sample", "{} samples"), u.rows());
     if (y.cols() > 0) {
         check_samples("iddata", SignalName::kOutput, y);
@@ -121,7 +121,7 @@ IdData::IdData(Matrix y, Matrix u, double sampling_time) : Ts(sampling_time) {
 IdData::IdData(Matrix y, Matrix u, const VectorView& t) : IdData(std::move(y), std::move(u), 1.0) {
     Experiment& experiment = experiments.front();
     if (t.size() != experiment.y.rows())
-        throw InvalidArgument("iddata: the output has {} but the time vector has {}",
+        throw InvalidArgument("iddata: the output has {}, but the time vector has {}",
                               plural(experiment.y.rows(), "{} sample", "{} samples"), t.size());
     check_instants("iddata", t);
     Ts = 0;
@@ -173,7 +173,7 @@ IdData IdData::range(Index first, Index last) const {
 IdData IdData::with_reference(Matrix r) const {
     const Index count = only_experiment(*this, "iddata").y.rows();
     if (r.rows() != count)
-        throw InvalidArgument("iddata: the data have {} but the reference has {}",
+        throw InvalidArgument("iddata: the data have {}, but the reference has {}",
                               plural(count, "{} sample", "{} samples"), r.rows());
     check_samples("iddata", SignalName::kReference, r);
     check_magnitudes("iddata", SignalName::kReference, r);

@@ -86,7 +86,7 @@ class MovingMedian {
 
 RepairedSignal fill_missing(const VectorView& x, const VectorView& t, std::optional<Index> max_gap, FillMethod method) {
     if (t.size() > 0 && t.size() != x.size())
-        throw InvalidArgument("fillmissing: the signal has {} but the time vector has {}",
+        throw InvalidArgument("fillmissing: the signal has {}, but the time vector has {}",
                               plural(x.size(), "{} sample", "{} samples"),
                               plural(t.size(), "{} instant", "{} instants"));
     check_instants("fillmissing", t);

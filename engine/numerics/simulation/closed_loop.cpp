@@ -228,7 +228,7 @@ Matrix ClosedLoop::sensitivities(const VectorView& r, int zeros) const {
 
 IdData ClosedLoop::simulate(const VectorView& r, const VectorView& v) const {
     if (r.size() != v.size())
-        throw InvalidArgument("closed loop: the reference has {} but the noise has {}",
+        throw InvalidArgument("closed loop: the reference has {}, but the noise has {}",
                               plural(r.size(), "{} sample", "{} samples"), v.size());
     if (!stable())
         throw InvalidArgument(

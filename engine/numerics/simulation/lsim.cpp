@@ -75,7 +75,7 @@ Vector lsim(const TransferFunction& G, const VectorView& u, double Ts, Hold hold
 
 Vector lsim(const TransferFunction& G, const VectorView& u, const VectorView& t, Hold hold, const VectorView& x0) {
     if (u.size() != t.size())
-        throw InvalidArgument("lsim: the input has {} but the time vector has {}",
+        throw InvalidArgument("lsim: the input has {}, but the time vector has {}",
                               plural(u.size(), "{} sample", "{} samples"), t.size());
     check_samples("lsim", SignalName::kInput, u);
     check_instants("lsim", t);
@@ -95,7 +95,7 @@ Matrix lsim(const StateSpace& system, const MatrixView& u, double Ts, Hold hold,
     check_sampling_time("lsim", Ts);
     check_samples("lsim", SignalName::kInput, u);
     if (u.cols() != system.B.cols())
-        throw InvalidArgument("lsim: the system has {} but the data have {}",
+        throw InvalidArgument("lsim: the system has {}, but the data have {}",
                               plural(system.B.cols(), "{} input", "{} inputs"),
                               plural(u.cols(), "{} input channel", "{} input channels"));
     if (system.Ts > 0) check_discrete_sampling(system.Ts, Ts);

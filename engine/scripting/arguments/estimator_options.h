@@ -69,8 +69,10 @@ inline constexpr std::array kSharingOptions = {kCommonDenominator};
 
 inline constexpr OptionEntry kStableOption = option<&FitOptions::stable>(
     "Stable",
-    about("true allows only models with all poles in the left half-plane; false returns the best fit regardless of its "
-          "poles. By default, an unstable model must decrease the loss by at least 2 %"),
+    about(
+        "true allows only models with all poles in the left half-plane; false returns the best fit regardless of its "
+        "poles. By default, an unstable model is returned only if its loss is at least 2 % lower than that of the best "
+        "stable model"),
     {.member = "stable"});
 inline constexpr OptionEntry kFixedOption = option<&FitOptions::fixed>(
     "Fixed", about("known parameters that are not estimated, such as {a2 = 4}"), {.member = "fixed"});

@@ -199,10 +199,10 @@ constexpr FunctionEntry kNonparametricFunctions[] = {
     {"spa", "nonparametric", "spa(data, G1, ..., {options}) -> fig, F",
      "Estimate the frequency response with standard errors by spectral analysis", guarded<spectral_analysis>,
      kSpaTables, kSpectralArguments},
-    {"impulseest", "nonparametric", "impulseest(data, n, G1, ..., {options}) -> fig, table",
+    {"impulseest", "nonparametric", "impulseest(data, n, G1, ..., {options}) -> fig, H",
      "Estimate the impulse response and the dead time by regression", guarded<regression_on_past_inputs>,
      kImpulseestTables, kImpulseArguments},
-    {"cra", "nonparametric", "cra(data, G1, ..., {options}) -> fig, table",
+    {"cra", "nonparametric", "cra(data, G1, ..., {options}) -> fig, H",
      "Estimate the impulse response by correlation analysis", guarded<correlation_analysis>, kCraTables,
      kSpectralArguments},
 };

@@ -210,9 +210,8 @@ std::optional<MisreadLine> misread_line_of(const std::string& source) {
                                           "math.min would treat as another value: write math.max(x, (max(v)))")};
     if (const std::optional<DecimalComma> number = decimal_comma_of(source, tokens)) {
         const auto& [line, name, whole, fraction] = *number;
-        return MisreadLine{
-            line, Message("{} = {},{} assigns {} the value {}: write a decimal number with a point, {}.{}", name, whole,
-                          fraction, name, whole, whole, fraction)};
+        return MisreadLine{line, Message("{} = {},{} assigns {} the value {}: use a decimal point, {}.{}", name, whole,
+                                         fraction, name, whole, whole, fraction)};
     }
     return std::nullopt;
 }

@@ -200,7 +200,8 @@ Machines machines_in(const std::string& text) {
     if (name == "hosts" && !rest.empty()) return hosts_in(rest);
     if (name == "processes" && number_up_to(256, rest) > 0) return hosts_in(rest + "/:");
     throw EnvironmentError(
-        "--on \"{}\" must be slurm[:OPTION=VALUE,...], hosts:HOST,N/HOST,... or processes:N (1 to 256)", text);
+        "--on must be slurm[:OPTION=VALUE,...], hosts:HOST,N/HOST,... or processes:N (1 to 256), but \"{}\" was given",
+        text);
 }
 
 Message submit_to_slurm(const Machines& machines, const WorkInParts& work) {

@@ -10,6 +10,7 @@
 namespace dynlab {
 namespace test_machines {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -59,7 +60,7 @@ TEST(machines, what_is_no_machine_is_refused_with_what_is_expected) {
         }
         return "";
     };
-    EXPECT_THAT(refusal("cloud:9"), HasSubstr("\"cloud:9\" must be slurm"));
+    EXPECT_THAT(refusal("cloud:9"), AllOf(HasSubstr("must be slurm"), HasSubstr("\"cloud:9\" was given")));
     EXPECT_THAT(refusal("processes:0"), HasSubstr("processes:N (1 to 256)"));
     EXPECT_THAT(refusal("hosts:"), HasSubstr("must be slurm"));
     EXPECT_THAT(refusal("hosts:-oProxyCommand=x"), HasSubstr("is not a host"));

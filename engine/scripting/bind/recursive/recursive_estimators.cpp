@@ -29,7 +29,9 @@ constexpr std::array kRecursiveOptions = {
                 about("variances of the random steps of the parameters from one sample to the next, one number for all "
                       "or one per parameter. By default, no steps")},
     option<&RecursiveOptions::noise_variance>(
-        "NoiseVariance", about("variance of the noise, relative to `drift`; by default computed from the past errors"),
+        "NoiseVariance",
+        about("noise variance, used only with `drift`: the ratio of `drift` to this variance determines how fast the "
+              "estimates change. By default, computed from the past errors"),
         {.member = "noise_variance"}),
     option<&RecursiveOptions::history_points>(
         "HistoryPoints", about("maximum number of equally spaced instants in the history, including the last sample"),
