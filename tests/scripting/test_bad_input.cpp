@@ -180,8 +180,8 @@ TEST(bad_input, data_are_checked_when_they_are_made) {
          "instant 3 is 1 and the previous instant is 2"},
         {"iddata({1, 2, 3}, {1, 0, 1}, nil, {SamplingInstants = {0, 2, 2}})",
          "instant 3 is 2 and the previous instant is 2"},
-        {"iddata({1, 2, 3}, {1, 0, 1}, nil, {SamplingInstants = {0, 2}})", "3 samples but the time vector has 2"},
-        {"iddata({1, 2}, {1}, 1)", "the output has 2 samples but the input has 1"},
+        {"iddata({1, 2, 3}, {1, 0, 1}, nil, {SamplingInstants = {0, 2}})", "3 samples, but the time vector has 2"},
+        {"iddata({1, 2}, {1}, 1)", "the output has 2 samples, but the input has 1"},
         {"iddata(nil, nil, 1)", "y and u are both nil; specify at least one of them"},
         {"iddata({}, {}, 1)", "must have rows or columns, but the table is empty"},
         {"iddata({theta = y, t = u}, u, 1)", "the table contains t, theta: use one of these, such as data.t"},
@@ -320,7 +320,7 @@ TEST(bad_input, models_of_the_wrong_kind_are_refused) {
 
 TEST(bad_input, static_methods_refuse_what_has_no_answer) {
     const std::vector<std::pair<std::string, std::string>> kCases = {
-        {"lsq(matrix{u}, {1, 2})", "504 rows but the right-hand side has 2 values"},
+        {"lsq(matrix{u}, {1, 2})", "504 rows, but the right-hand side has 2 values"},
         {"lsq(matrix{u*(0/0)}, y)", "not finite"},
         {"lsq(matrix{{1, 2}}, {1})", "cannot determine 2 parameters"},
         {"gradient_descent(matrix{zeros(3)}, {1, 2, 3})", "gradient_descent: all regressors are zero"},

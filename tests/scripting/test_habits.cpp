@@ -61,7 +61,7 @@ TEST(habits, are_answered_with_the_remedy) {
         {"for k = 1:10 print(k) end", "for k = 1, N do ... end"},
         {"x = 1\nx += 1", "x = x + 1"},
         {"local 2x = 1", "a name must start with a letter"},
-        {"x = 3,5", "x = 3,5 assigns x the value 3: write a decimal number with a point, 3.5"},
+        {"x = 3,5", "x = 3,5 assigns x the value 3: use a decimal point, 3.5"},
         {"print(1)\nlocal Ts = 0,01\nprint(Ts)", "lesson.lua:2: Ts = 0,01 assigns Ts the value 0"},
         {"math.randomseed(3)", "rng(seed)"},
         {"local ok = randn(9) > 0", "gt(x, y)"},

@@ -87,7 +87,7 @@ const Planted kPlanted[] = {
     {"if x = 3 then end\n     ^", "syntax", "=="},
     {"print(\"open)\n      ^", "syntax", ""},
     {"local A = matrix{1, 2; 3, 4}\n^", "syntax", "each row of a matrix is a table"},
-    {"x = 3,5\n^", "syntax", "with a point"},
+    {"x = 3,5\n^", "syntax", "use a decimal point"},
     {"y = {1, 2\nz = 3\n^", "syntax", "not closed"},
     {"x = 2 end\n      ^", "syntax", ""},
     // the header

@@ -302,7 +302,7 @@ TEST(script_errors, count_one_in_the_singular) {
          "lesson.lua:1: lsim: the transfer function has 1 zero but only 0 poles; a simulation needs a "
          "model with at least as many poles as zeros"},
         {"lsq(matrix{{1}, {2}}, {1})",
-         "lesson.lua:1: lsq: least squares: the matrix has 2 rows but the right-hand side has 1 value"},
+         "lesson.lua:1: lsq: least squares: the matrix has 2 rows, but the right-hand side has 1 value"},
         {"local y = vector{1} + vector{1, 2}",
          "lesson.lua:1: x + y needs equal sizes, but x is a vector of 1 value and y is a vector of 2 values"},
         {"report.table('t', {{'a', 'b'}, {1}})", "lesson.lua:1: report.table: row 2 has 1 cell, but the header has 2"},

@@ -30,7 +30,7 @@ TEST(script_loops, the_reference_goes_with_the_data) {
               "true\t635\tiddata: 635 samples, 1 output, 1 input, Ts = 0.05 s, 1 reference\ntrue\ttrue\ntrue\ttrue\n"
               "true\t127\n2\ttrue\ntrue\n");
     EXPECT_THAT(error_of(kLoop + "iddata(data.y, data.u, Ts, {Reference = r:range(1, 9)})"),
-                HasSubstr("635 samples but the reference has 9"));
+                HasSubstr("635 samples, but the reference has 9"));
     EXPECT_THAT(error_of(kLoop + "data:merge(iddata(data.y, data.u, Ts))"),
                 HasSubstr("0 references, but the number of references in the first part is 1"));
     EXPECT_THAT(error_of(kLoop + "print(iddata(data.y, data.u, Ts).r)"), HasSubstr("have no reference"));

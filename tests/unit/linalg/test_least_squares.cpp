@@ -59,7 +59,7 @@ TEST(least_squares, equal_columns_are_reported) {  // oracle: analytic, the two 
 
 TEST(least_squares, refusals) {
     EXPECT_EQ(thrown_message([] { solve_least_squares(Matrix::Ones(3, 1), Vector::Ones(4)); }),
-              "least squares: the matrix has 3 rows but the right-hand side has 4 values");
+              "least squares: the matrix has 3 rows, but the right-hand side has 4 values");
     EXPECT_EQ(thrown_message([] { solve_least_squares(Matrix::Ones(2, 3), Vector::Ones(2)); }),
               "least squares: 2 equations cannot determine 3 parameters; more data are needed");
     EXPECT_EQ(thrown_message([] { solve_least_squares(Matrix::Ones(2, 1), Vector::Constant(2, NAN)); }),

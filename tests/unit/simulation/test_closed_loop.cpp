@@ -149,7 +149,7 @@ TEST(closed_loop, refuses_what_is_no_loop) {  // oracle: the sentence names the 
         thrown_message([&] {
             ClosedLoop(TransferFunction(Vector{{1}}, Vector{{1, -1}}), {gain}, kTs).simulate(r, Vector::Zero(9));
         }),
-        HasSubstr("10 samples but the noise has 9"));
+        HasSubstr("10 samples, but the noise has 9"));
     EXPECT_THAT(thrown_message([&] {
                     ClosedLoop(TransferFunction(Vector{{9}}, Vector{{1, -1}}),
                                {TransferFunction(Vector{{0.1}}, Vector{{1}})}, kTs)

@@ -145,7 +145,7 @@ TEST(lsim, says_what_is_wrong) {
     EXPECT_EQ(thrown_message([] {
                   lsim(kSecondOrder, Vector::Ones(3), from({0, 1, 2, 3}));
               }),
-              "lsim: the input has 3 samples but the time vector has 4");
+              "lsim: the input has 3 samples, but the time vector has 4");
     EXPECT_EQ(thrown_message([] {
                   lsim(kSecondOrder, from({1, NAN}), 0.1);
               }),
