@@ -160,7 +160,8 @@ TEST_F(workbench_page_parts, a_bracket_that_is_open_is_marked_where_it_was_opene
     EXPECT_TRUE(browser.becomes_true("document.querySelectorAll('.chosen input[type=number]').length >= 2"))
         << "the controls of what it was";
     ASSERT_TRUE(press(browser, "Report (PDF)"));
-    EXPECT_TRUE(says(browser, "A report cannot be created from a script with an error"));
+    EXPECT_TRUE(says(browser, "A report cannot be created from a script with an error")) << browser.evaluate(
+        "return document.getElementById('trouble').textContent + document.getElementById('state').textContent");
 }
 
 TEST_F(workbench_page_parts, a_field_with_an_open_bracket_stays_and_writes_nothing) {

@@ -15,7 +15,7 @@ import { modelSteps, roles } from "./bench_steps.js";
 import { browserLanguage, label, language, languages, say, useLanguage } from "./bench_words.js";
 
 const $ = (id) => document.getElementById(id);
-let connection = "here", opened = false, making = false, viewsBefore = "";
+let connection = "here", opened = false, making = false, viewsBefore = "", refused = -1;  // refused: revision without a report
 
 /// The script's header states the language of all messages of its run; a new session has the browser's language.
 let languageBefore = null;
@@ -67,7 +67,7 @@ function showState() {
   const unsaved = session.unsaved ? say("unsaved", session.unsaved) : "";
   if ($("unsaved").textContent !== unsaved) $("unsaved").textContent = unsaved;
   const [mistake, ...controls] = session.error ? mistakeWords(session.error) : [""], { dataset, hidden } = $("trouble");
-  if (mistake && (dataset.mistake !== mistake || hidden)) trouble(mistake, ...controls);
+  if (mistake && (hidden || (dataset.mistake !== mistake && refused !== session.revision))) trouble(mistake, ...controls);
   else if (!mistake && dataset.mistake) trouble(null);
   dataset.mistake = mistake;
 }
@@ -228,7 +228,7 @@ async function takeReport() {
   }
   const answer = await request("document.pdf");
   if (answer.ok) download(name.replace(/\.lua$/, "") + ".pdf", await answer.blob());
-  else trouble(await answer.text());
+  else trouble(await answer.text()), refused = session.revision;  // it says the mistake, too
 }
 document.addEventListener("keydown", (event) => {
   if (!(event.ctrlKey || event.metaKey) || event.target.closest(".CodeMirror, input, textarea")) return;
