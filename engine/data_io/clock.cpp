@@ -186,15 +186,13 @@ class Column {
             return Message(
                 "{}: every time occurs twice. If the rows are the minimum and the maximum of an interval, average "
                 "them. If the clock is too coarse, specify the sampling time with the command-line option --Ts or with "
-                "iddata(y, "
-                "u, Ts)",
+                "iddata(y, u, Ts)",
                 place);
         if (back == 0)
             return Message(
                 "{}. Number of rows with the same time as the previous row: {}. If rows were written twice, delete the "
                 "copies. If the clock is too coarse, specify the sampling time with the command-line option --Ts or "
-                "with "
-                "iddata(y, u, Ts)",
+                "with iddata(y, u, Ts)",
                 place, equal);
         return Message("{}. If the recording was restarted or the clock was set, save each part in a separate file",
                        place);

@@ -6,6 +6,7 @@
 #include "base/reader.h"
 #include "course/grading/feedback.h"
 #include "course/grading_bench.h"
+#include "course/intake/staging.h"
 #include "course/office/marks_join.h"
 #include "course/office/receive_class.h"
 #include "platform/atomic_file.h"
@@ -33,6 +34,9 @@ class MarkedClass {
             std::filesystem::create_directories(out() / "in" / name);
             write_file_atomically(out() / "in" / name / "analysis.lua", std::string("-- of ") + name + "\n");
         }
+        const std::filesystem::path anh = out() / "in/Anh_901_assignsubmission_file_";  // submits an archive
+        zip_submission({"", anh}, anh.string() + ".zip", {});
+        std::filesystem::remove_all(anh);
         const ClassSubmissions submissions(out() / "in", Isolation::kProcess, DYNLAB_PROGRAM);
         work_.emplace(course_, this->lab(), receive_class(course_, this->lab(), submissions, {}, CourseClock::now()));
     }
@@ -40,7 +44,7 @@ class MarkedClass {
     void write(const std::string& rows) const {
         write_file_atomically(out() / kMarksFile, "who,check,points,reason\n" + rows);
     }
-    /// What the rows that cannot be taken are told, a line each. The checks x and y have 4 and 6 points.
+    /// The complaints about rows that cannot be taken, a line each. The checks x and y have 4 and 6 points.
     std::string join(double most_of_y = 6) {
         std::string text;
         for (const Message& sentence :
@@ -75,8 +79,9 @@ class MarkedClass {
 // oracle: the roster of the class; every unique identifier gives the same mark
 TEST(manual_marks, are_given_by_any_unique_identifier) {
     MarkedClass marked;
-    for (const char* who : {"group-01", "Group 1", "221", "Nguyễn Thị Minh Anh", "Minh Anh Nguyen Thi", "a@uni.eu",
-                            "Max Mustermann", "901", "Anh_901_assignsubmission_file_"}) {
+    for (const char* who :
+         {"group-01", "Group 1", "221", "Nguyễn Thị Minh Anh", "Minh Anh Nguyen Thi", "a@uni.eu", "Max Mustermann",
+          "901", "Anh_901_assignsubmission_file_", "Anh_901_assignsubmission_file_.zip"}) {
         marked.write(std::string(who) + ",x,3.5,good\n");
         EXPECT_EQ(marked.join(), "") << who;
         EXPECT_EQ(marked.given("Anh_901_assignsubmission_file_"), "x 3.5 good") << who;
@@ -108,6 +113,23 @@ TEST(manual_marks, of_the_whole_submission_are_held_against_the_sum_of_all_check
     EXPECT_EQ(marked.given("group_2_final"), "* 7.5 shown at the desk");
     marked.write("group-02,*,11,\n");
     EXPECT_THAT(marked.join(), HasSubstr("gets 11 points for the check \"*\", but the maximum is 10"));
+}
+
+// oracle: the mark that was written, of all points of the lesson; nothing is taken off
+TEST(manual_marks, of_the_whole_submission_replace_those_of_the_checks) {
+    Grade grade;
+    for (const double max_points : {4.0, 6.0}) {
+        CheckGrade check;
+        check.points = max_points, check.earned = 1, check.graded = false;
+        grade.checks.push_back(check);
+    }
+    grade.unreadable = true, grade.penalty = 2;
+    EXPECT_TRUE(grade.without_marks());
+    grade.whole_mark = 7.5;
+    EXPECT_EQ(grade.earned(), 7.5);
+    EXPECT_EQ(grade.possible(), 10);
+    EXPECT_TRUE(grade.whole());
+    EXPECT_FALSE(grade.without_marks());
 }
 
 // oracle: issue found in a term: the next run deleted 28 marks that the instructor had typed in
@@ -192,6 +214,9 @@ TEST(manual_marks, of_students_on_the_roster_reach_the_gradebook_by_any_name) {
                     AllOf(HasSubstr("1,Anna Lovelace,Anna Lovelace_900001_assignsubmission_file_,graded,3,5,"),
                           HasSubstr("9,Bo Linwood,group-9.rar,graded,4,5,")))
             << anna << " " << bo;
+        EXPECT_THAT(work.read("out/results/Anna Lovelace_900001_assignsubmission_file_/feedback.md"),
+                    AllOf(HasSubstr("3 of 5 points"), HasSubstr("Marked by the instructor.")))
+            << anna;
     }
 }
 

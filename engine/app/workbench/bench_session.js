@@ -67,7 +67,7 @@ export function inTurn(run) {
 /// `make()` gives the order's edits of the script as it is in its turn (or {text} for all of it), or null for nothing to do;
 /// it is called again where the script was changed elsewhere meanwhile. `hand`: an object of one drag, or of what is typed in one
 /// go, whose moves are one step of the history as long as nothing else changes the script; a move that is `held` still is
-/// overtaken by the next one of its hand. `done()` is called when the session has taken it. Resolves to the revision with it.
+/// overtaken by the next one of its hand. `done()` is called when the session has taken it.
 export function change(make, { hand = null, held = false, goesOn = false, done = () => {} } = {}) {
   if (hand && last?.hand === hand && last.held) {
     Object.assign(last, { make, held });
@@ -93,8 +93,7 @@ async function obey(order) {
     if (!answer.ok) continue;
     if (hand && reached > before) hand.reached = reached;
     if (held) await settled(() => session.shown === session.revision && !session.running, kLongestFrame);
-    done();
-    return reached;
+    return done();
   }
   throw new Error(say("changedMeanwhile"));
 }

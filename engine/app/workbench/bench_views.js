@@ -204,10 +204,10 @@ export function arrange() {
 }
 
 const intoScript = (name) => change(() => [insertedBehind(endOfScript(), viewLines(name, drawnModels()))]);
-/// A report that shows nothing yet gets what is on the page. Resolves to the revision with it, or undefined without a change.
+/// A report that shows nothing yet gets what is on the page.
 export async function fillReport() {
   const lines = wholeReport(shownViews(), drawnModels());
-  return lines ? change(() => [insertedBehind(endOfScript(), lines)]) : undefined;
+  if (lines) await change(() => [insertedBehind(endOfScript(), lines)]);
 }
 
 /// Zooms the plot of the data to samples of the prepared data, with a margin of the same length on both sides.

@@ -15,7 +15,7 @@ import { modelSteps, roles } from "./bench_steps.js";
 import { browserLanguage, label, language, languages, say, useLanguage } from "./bench_words.js";
 
 const $ = (id) => document.getElementById(id);
-let connection = "here", opened = false, making = false, viewsBefore = "", refused = -1;  // refused: revision without a report
+let connection = "here", opened = false, making = false, viewsBefore = "";
 
 /// The script's header states the language of all messages of its run; a new session has the browser's language.
 let languageBefore = null;
@@ -67,7 +67,7 @@ function showState() {
   const unsaved = session.unsaved ? say("unsaved", session.unsaved) : "";
   if ($("unsaved").textContent !== unsaved) $("unsaved").textContent = unsaved;
   const [mistake, ...controls] = session.error ? mistakeWords(session.error) : [""], { dataset, hidden } = $("trouble");
-  if (mistake && (hidden || (dataset.mistake !== mistake && refused !== session.revision))) trouble(mistake, ...controls);
+  if (mistake && (dataset.mistake !== mistake || hidden)) trouble(mistake, ...controls);
   else if (!mistake && dataset.mistake) trouble(null);
   dataset.mistake = mistake;
 }
@@ -208,9 +208,9 @@ $("make-pdf").onclick = async () => {
   showState();
   try {
     await inTurn(() => {});  // what was asked for and typed is in it
-    const filled = await fillReport();
-    if (filled) await settled(() => session.revision >= filled, 20000);  // later news would take away what is said below
+    await fillReport();
     await settled(() => session.shown === session.revision && !session.running, 3000);
+    showState();  // the error's own message, drawn with the next frame, would replace what is said below
     await takeReport();
   } catch (error) {
     trouble(error.message);
@@ -228,7 +228,7 @@ async function takeReport() {
   }
   const answer = await request("document.pdf");
   if (answer.ok) download(name.replace(/\.lua$/, "") + ".pdf", await answer.blob());
-  else trouble(await answer.text()), refused = session.revision;  // it says the mistake, too
+  else trouble(await answer.text());
 }
 document.addEventListener("keydown", (event) => {
   if (!(event.ctrlKey || event.metaKey) || event.target.closest(".CodeMirror, input, textarea")) return;

@@ -40,8 +40,7 @@ Message remark(const Received& r) {
     if (!r.other_time.empty())
         return Message(
             "already received; according to --times, the file arrived on {}; to correct the recorded time, run dynlab "
-            "course "
-            "set-received",
+            "course set-received",
             r.other_time);
     if (r.known) return Message("already received; nothing changed");
     MessageList clauses{{}, Join::kSemicolon};

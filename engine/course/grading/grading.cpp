@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "course/grading/feedback.h"
+#include "course/grading/manual_marks.h"
 #include "course/intake/staging.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"

@@ -5,7 +5,6 @@
 
 #include "course/grading/cached_stages.h"
 #include "course/grading/grading_rules.h"
-#include "course/grading/manual_marks.h"
 #include "course/grading/work_item.h"
 #include "course/sandbox_jobs/sandboxed_document.h"
 

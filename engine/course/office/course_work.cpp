@@ -95,11 +95,12 @@ void CourseWork::take_marks(Course& course, const Assignment& assignment, std::v
     const std::vector<GivenMark> marks = marks_in_force(course, assignment);
     for (WorkItem& item : work_.items) {
         item.given.clear();
-        for (const bool of_version : {false, true})  // the latter go before those of all versions
-            for (const GivenMark& mark : marks)
-                if (mark.student.empty() && mark.group == item.group_id && (mark.version != 0) == of_version &&
-                    (!of_version || mark.version == item.version))
-                    item.given[mark.item] = {*mark.points, mark.reason};
+        for (const GivenMark& mark : marks) {
+            if (!mark.student.empty() || mark.group != item.group_id) continue;
+            // A mark of this version goes before that of all versions.
+            if (mark.version == item.version || (mark.version == 0 && !item.given.contains(mark.item)))
+                item.given[mark.item] = {*mark.points, mark.reason};
+        }
     }
 }
 

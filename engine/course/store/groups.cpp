@@ -283,9 +283,8 @@ RosterChange import_roster(Course& course, const std::filesystem::path& file, bo
     if (!roster.has("group") && !no_groups)
         throw EnvironmentError(
             "{}: the column \"group\" is missing; the file has the columns {}. dynlab recognizes \"id\", \"name\", "
-            "\"group\", "
-            "\"email\" (or \"mail\"), \"moodle\" and \"canvas\". Add the column, or specify --no-groups if each "
-            "student works alone",
+            "\"group\", \"email\" (or \"mail\"), \"moodle\" and \"canvas\". Add the column, or specify --no-groups if "
+            "each student works alone",
             file.string(), listed(roster.columns()));
     RosterChange change = Import(course, roster, now).run();
     change.unknown_columns = roster.unknown_columns();

@@ -27,8 +27,8 @@ Solution solve_normal_equations(const MatrixView& Phi, const VectorView& y) {
     if (!inverse || inverse->reciprocal_condition < std::numeric_limits<double>::epsilon())
         throw InvalidArgument(
             "The normal equations have no unique solution to working precision, because the columns of Phi are "
-            "linearly "
-            "dependent or differ too much in scale. Use the method \"qr\", or center and scale the regressors");
+            "linearly dependent or differ too much in scale. Use the method \"qr\", or center and scale the "
+            "regressors");
     return {solution->x, inverse->x};
 }
 

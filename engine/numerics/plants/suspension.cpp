@@ -19,8 +19,7 @@ void SuspensionParameters::validate() const {
     if (damping * damping >= 4 * stiffness * mass)
         throw InvalidArgument(
             "The damping of the suspension must be less than 2*sqrt(stiffness*mass) = {}, but is {}; otherwise, the "
-            "suspension does "
-            "not oscillate",
+            "suspension does not oscillate",
             significant(2 * std::sqrt(stiffness * mass), 6), significant(damping, 6));
 }
 
