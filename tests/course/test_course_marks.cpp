@@ -271,7 +271,7 @@ TEST(course_marks, students_have_points_of_their_own_at_the_oral) {
                 HasSubstr("content must be a number from 0 to 5, but \"x\" was given"));
     EXPECT_EQ(bench.dump(), before);
     EXPECT_THAT(bench.course({"assignment", "--remove", "talk", "--reason", "x"}).error_output,
-                HasSubstr("depend on the assignment"));
+                HasSubstr("the assignment talk cannot be removed, because it already has"));
 }
 
 // oracle: a permutation, the same each time, of groups that are neither all in the order of their names

@@ -61,20 +61,22 @@ std::string joined_setting(const Assignment& assignment) {
     return fmt::format("marks joined {}", assignment.id);
 }
 
-/// A mark whose row the instructor took out of the file, or emptied, is in force no more.
+/// A mark whose row the instructor took out of the file, emptied, or changed to points that are refused, is in force no
+/// more.
 void take_back_lost_rows(Course& course, const Assignment& assignment, const CourseWork& work, const MarksFile& file,
-                         const MarksInForce& before) {
+                         const std::map<std::string, double>& max_points, const MarksInForce& before) {
     std::set<std::pair<CourseWork::Marked, std::string>> written;
     const MarkedItems items(work.work());
     for (const MarksFile::Row& row : file.rows())
-        if (const auto marked = CourseWork::marked_by(course, items.find(row.who), row.who); marked && row.points)
+        if (const auto marked = CourseWork::marked_by(course, items.find(row.who), row.who);
+            marked && row.points && problem_of_points(row, max_points, before.exactly(*marked, row.check)).empty())
             written.insert({*marked, row.check});
     for (const GivenMark& mark : marks_in_force(course, assignment)) {
         const CourseWork::Marked marked{mark.group, mark.version};
         if (!mark.student.empty() || written.contains({marked, mark.item}) ||
             before.exactly(marked, mark.item) == nullptr || work.names_of(mark.group, mark.version).empty())
             continue;
-        give_mark(course, assignment, {mark.group, "", mark.item, {}, "its row was removed", mark.version},
+        give_mark(course, assignment, {mark.group, "", mark.item, {}, "its row was removed or refused", mark.version},
                   CourseClock::now());
     }
 }
@@ -120,7 +122,7 @@ std::vector<Message> join_marks_file(Course& course, const Assignment& assignmen
     Transaction transaction(course.database());  // a mark that a command gives meanwhile comes with the next join
     const std::optional<std::int64_t> last = newest_joined_mark(course, assignment);
     const MarksInForce before(last ? marks_in_force(course, assignment, last) : std::vector<GivenMark>());
-    if (file_alone) take_back_lost_rows(course, assignment, work, file, before);
+    if (file_alone) take_back_lost_rows(course, assignment, work, file, max_points, before);
     const MarksInForce now(marks_in_force(course, assignment));
     std::vector<std::pair<MarksFile::Row, CourseWork::Marked>> known;
     ChangedRows changed(results);
