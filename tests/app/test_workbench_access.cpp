@@ -150,7 +150,7 @@ TEST_F(workbench_access, a_name_that_cannot_be_is_refused_in_words) {
     const std::string before = script();
     for (const auto& [name, words] :
          {std::pair("best model", "letters, digits"), std::pair("end", "Lua keyword"),
-          std::pair("G1", "is already used in the script"), std::pair("bode", "a function")}) {
+          std::pair("G1", "is already used in the script"), std::pair("bode", "A function has this name")}) {
         rename(name);
         EXPECT_TRUE(browser.becomes_true("document.getElementById('name-trouble').textContent.includes('" +
                                          std::string(words) + "')"))
