@@ -186,6 +186,41 @@ TEST_F(workbench_access, help_is_formatted_and_its_text_is_no_markup) {
               "src=x&gt; end</p>\"");
 }
 
+// oracle: the summaries that dynlab help prints
+TEST_F(workbench_access, every_why_opens_a_short_text_and_the_page_it_comes_from) {
+    Browser browser;
+    const auto program = open(browser);
+    ASSERT_TRUE(press(browser, "New model"));
+    ASSERT_TRUE(view_appears(browser, "bode"));
+    wait(browser);
+    browser.evaluate("document.querySelectorAll('details').forEach((one) => { one.open = true; })");
+    const json names =
+        json::parse(browser.evaluate("return [...document.querySelectorAll('button.why')].filter((one) => "
+                                     "one.offsetParent).map((one) => one.title)"));
+    ASSERT_GT(names.size(), 8u);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        browser.evaluate("[...document.querySelectorAll('button.why')].filter((one) => one.offsetParent)[" +
+                         std::to_string(i) + "].click()");
+        ASSERT_TRUE(browser.becomes_true("document.getElementById('page-of-help').open")) << names[i];
+        const json shown = json::parse(
+            browser.evaluate("const text = document.getElementById('help-text'), rest = text.querySelector('details'); "
+                             "return {title: document.getElementById('help-title').textContent, rest: Boolean(rest), "
+                             "short: [...text.children].filter((one) => one !== rest).map((one) => "
+                             "one.textContent).join(' ')}"));
+        const std::string title = shown["title"], function = title.substr(title.rfind(' ') + 1);
+        const std::string page = Workbench().dynlab({"help", function}).output;
+        const std::size_t summary_at = page.find("\n\n") + 2;  // behind the underlined name
+        const std::string summary = page.substr(summary_at, page.find('\n', summary_at) - summary_at);
+        const std::string begin = shown["short"];
+        ASSERT_GT(summary.size(), 10u) << title;
+        EXPECT_TRUE(shown["rest"]) << title;
+        EXPECT_GT(begin.size(), 20u) << title;
+        EXPECT_LT(begin.size(), 700u) << title;
+        EXPECT_THAT(begin, HasSubstr(summary)) << title;
+        browser.evaluate("document.getElementById('page-of-help').close()");
+    }
+}
+
 TEST_F(workbench_access, options_and_columns_say_what_they_are) {
     Browser browser;
     const auto program = open(browser);
