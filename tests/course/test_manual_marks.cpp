@@ -48,7 +48,7 @@ class MarkedClass {
     std::string join(double most_of_y = 6) {
         std::string text;
         for (const Message& sentence :
-             join_marks_file(course_, lab(), *work_, {{"x", 4}, {"y", most_of_y}, {kWholeSubmission, 10}}, out(), true))
+             join_marks_file(course_, lab(), *work_, {{"x", 4}, {"y", most_of_y}, {kWholeItem, 10}}, out(), true))
             text += message_text(sentence) + "\n";
         work_->take_marks(course_, lab());
         return text;

@@ -29,7 +29,7 @@ Grade with_manual_marks(Grade grade, const std::map<std::string, ManualMark>& gi
         check.graded = check.visible = true;
         check.message = said(mark->second);
     }
-    if (const auto mark = given.find(kWholeSubmission); mark != given.end()) {
+    if (const auto mark = given.find(kWholeItem); mark != given.end()) {
         grade.whole_mark = mark->second.points;
         grade.whole_reason = said(mark->second);
     }

@@ -116,7 +116,7 @@ void MarksFile::read() {
         if (cells[who_].empty() && cells[points_].empty()) continue;
         Row row{table_.lines[i],
                 as_written(cells[who_]),
-                cells[check_].empty() ? kWholeSubmission : cells[check_],
+                cells[check_].empty() ? kWholeItem : cells[check_],
                 {},
                 as_written(cells[reason_])};
         if (!cells[points_].empty()) {
@@ -188,7 +188,7 @@ void MarksFile::add(const std::vector<Row>& rows, const std::vector<std::vector<
 void MarksFile::fill(const std::string& who, const std::string& check, std::optional<double> points,
                      const std::string& reason) {
     for (auto& cells : table_.rows) {
-        if (cells[who_] != who || (cells[check_].empty() ? kWholeSubmission : cells[check_]) != check) continue;
+        if (cells[who_] != who || (cells[check_].empty() ? kWholeItem : cells[check_]) != check) continue;
         cells[points_] = points ? points_text(*points) : "";
         cells[reason_] = reason;
     }

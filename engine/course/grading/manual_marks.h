@@ -7,14 +7,13 @@
 
 #include "course/grading/work_item.h"
 #include "course/intake/owners.h"
+#include "course/intake/submission.h"
 #include "data_io/text_table.h"
 
 namespace dynlab::inline course {
 
 /// The file of the instructor's own marks in a folder of results.
 inline constexpr char kMarksFile[] = "marks.csv";
-/// Instead of a check: the mark is of the whole submission.
-inline constexpr char kWholeSubmission[] = "*";
 
 /// The rows of that file: who (a group in any spelling, a student's name or id, or a submission's name), check (or *
 /// for the whole submission), points and reason, which the student reads. dynlab adds rows that are to be filled in and

@@ -10,6 +10,9 @@
 
 namespace dynlab::inline course {
 
+/// Where a mark names a check or a criterion: the mark is of the whole submission.
+inline constexpr char kWholeItem[] = "*";
+
 /// A sender according to a platform's list.
 struct Submitter {
     std::string name, id, mail;

@@ -5,13 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "course/intake/submission.h"
 #include "course/store/assignments.h"
 
 namespace dynlab::inline course {
 
-/// Items of marks other than checks and criteria: the whole submission (of a report or a talk in percent), and the
-/// group's reviews, in percent.
-inline constexpr char kWholeItem[] = "*", kReviewsItem[] = "reviews";
+/// Item of marks other than checks, criteria and kWholeItem (of a report or a talk in percent): the group's reviews, in
+/// percent.
+inline constexpr char kReviewsItem[] = "reviews";
 
 /// An item as it is typed: of a report or a talk, `work` is the whole submission.
 std::string item_called(const Assignment& assignment, const std::string& name);
