@@ -117,11 +117,11 @@ class CheckedWork {
             for (const std::string& run : {std::string(kHiddenDataSets), plant.name}) {
                 if (run != kHiddenDataSets && !reruns.contains(run)) continue;
                 const PlantChoice choice{.variant_number = drawn(plant.name), .seed = drawn(noise_of(plant.name, run))};
-                submission_.specimens[run][plant.name] = choice.variant_number;
+                submission_.variants[run][plant.name] = choice.variant_number;
                 write_variant_data(plant.name, choice, place_of(plant.name, run));
             }
         }
-        for (const std::string& plant : listed.rigs) {
+        for (const std::string& plant : listed.plants) {
             for (const std::string& run : {std::string(kHiddenDataSets), plant}) {
                 if (run != kHiddenDataSets && !reruns.contains(run)) continue;
                 const std::uint32_t variant_number = drawn(plant);
@@ -132,7 +132,7 @@ class CheckedWork {
                     variables[name] = {
                         Vector(Eigen::Map<const Vector>(values.data(), static_cast<Index>(values.size())))};
                 write_mat_file(place_of(plant, run) / (plant + ".mat"), variables);
-                submission_.specimens[run][plant] = variant_number;
+                submission_.variants[run][plant] = variant_number;
             }
         }
     }

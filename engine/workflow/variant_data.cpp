@@ -20,8 +20,8 @@ constexpr int kStoredDigits = 7;
 constexpr std::string_view kVariantKey = "Specimen:";
 constexpr char kOwnData[] = R"(
 **Your group's own data set.** It was generated as described above, but for another unit of the plant, which has
-different parameters, and with different noise. `rig("{name}", {{specimen = {seed}, seed = {seed}}})` generates it
-again, and `rig_truth("{name}", {{specimen = {seed}}})` returns the true values.
+different parameters, and with different noise. `plant("{name}", {{variant = {seed}, seed = {seed}}})` generates it
+again, and `true_model("{name}", {{variant = {seed}}})` returns the true values.
 
 {key} {seed}
 )";

@@ -24,7 +24,7 @@ void call_library(const Call& call, const char* name, int arguments) {
 void call_of_plant(const Call& call, int function, std::uint32_t variant_number, std::uint32_t seed) {
     lua_State* L = call.state();
     lua_rawgeti(L, LUA_REGISTRYINDEX, function);
-    give_table(call, "specimen", variant_number, "seed", seed);
+    give_table(call, "variant", variant_number, "seed", seed, "specimen", variant_number);  // its earlier name
     lua_call(L, 1, 1);
 }
 
@@ -119,8 +119,8 @@ int truth(Call& call) {
         return 1;
     }
     call.give(name);
-    give_table(call, "specimen", variant_number);
-    call_library(call, "rig_truth", 2);
+    give_table(call, "variant", variant_number);
+    call_library(call, "true_model", 2);
     return 1;
 }
 

@@ -141,7 +141,7 @@ constexpr std::array kDeclarationFunctions = {
                   "changes points or words of a check that was declared before", guarded<change_check>, kChange},
     FunctionEntry{"drop_check", kDeclarations, "drop_check(id)", "removes a check that was declared before",
                   guarded<drop_check>},
-    FunctionEntry{"declare_rig", kDeclarations, "declare_rig{options}",
+    FunctionEntry{"declare_plant", kDeclarations, "declare_plant{options}",
                   "declares a simulated plant for hidden data sets and reruns", guarded<declare_plant>,
                   kDeclaredPlantTables},
 };

@@ -12,15 +12,15 @@ DYNLAB_DESCRIBE(AnswerChange, name, factor)
 DYNLAB_DESCRIBE(CheckedSubmission, runs, findings, source, change)
 DYNLAB_DESCRIBE(CheckDescription, id, about, hint, points, rerun, document, by_hand, rubric, visible)
 DYNLAB_DESCRIBE(EvaluatedCheck, check, share, message, for_instructor, seconds)
-DYNLAB_DESCRIBE(SubmissionToGrade, work, home, specimens)
+DYNLAB_DESCRIBE(SubmissionToGrade, work, home, variants)
 DYNLAB_DESCRIBE(GradedSubmission, checks, reason, seconds)
 template <Is<CheckResults> T, class V>
 void describe(T& object, V& member) {
-    auto& [checks, judged, rigs, data_sets, error] = object;
-    member("checks", checks), member("judged", judged), member("rigs", rigs);
+    auto& [checks, judged, plants, data_sets, error] = object;
+    member("checks", checks), member("judged", judged), member("plants", plants);
     member("records", data_sets), member("error", error);
 }
-DYNLAB_DESCRIBE(RequestedDataSet, rig, specimen, seed)
+DYNLAB_DESCRIBE(RequestedDataSet, plant, variant, seed)
 template <Is<ChecksJob> T, class V>
 void describe(T& object, V& member) {
     auto& [files, hidden_folder, time_ms, most_ms, clock_multiple, only, submissions, data_sets] = object;

@@ -42,8 +42,8 @@ struct EvaluatedCheck {
 /// A submission to be checked, with the data sets of its group.
 struct SubmissionToGrade {
     CheckedSubmission work;
-    std::filesystem::path home;                      ///< DYNLAB_HOME during the checks
-    std::map<std::string, PlantVariants> specimens;  ///< see CheckSession
+    std::filesystem::path home;                     ///< DYNLAB_HOME during the checks
+    std::map<std::string, PlantVariants> variants;  ///< see CheckSession
 };
 
 /// Check results of one submission.
@@ -56,15 +56,15 @@ struct GradedSubmission {
 struct CheckResults {
     std::vector<EvaluatedCheck> checks;    ///< as they are declared
     std::vector<GradedSubmission> judged;  ///< one entry per submission of ChecksJob::submissions, in order
-    std::vector<std::string> rigs;         ///< data sets of the simulated plants that the files declare
+    std::vector<std::string> plants;       ///< data sets of the simulated plants that the files declare
     std::vector<std::map<std::string, std::vector<double>>> data_sets;  ///< one entry per request of the job, in order
     std::optional<Message> error;  ///< a sentence, when a file cannot be read; then there is nothing else
 };
 
 /// A request for a data set of a simulated plant that the files declare.
 struct RequestedDataSet {
-    std::string rig;
-    std::uint32_t specimen = 0, seed = 1;
+    std::string plant;
+    std::uint32_t variant = 0, seed = 1;
 };
 
 /// Job: check files, and the submissions to be checked.

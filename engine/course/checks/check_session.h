@@ -37,7 +37,7 @@ struct CheckOutcome {
     Message for_instructor = {};  ///< the previous message, if it may quote a hidden data set
 };
 
-/// A simulated plant that a check file declares; its functions take {specimen =, seed =} and are indices in Lua's
+/// A simulated plant that a check file declares; its functions take {variant =, seed =} and are indices in Lua's
 /// registry.
 struct DeclaredPlant {
     int simulated_data = 0, truth = 0;  ///< truth: 0 if the file declares none

@@ -80,10 +80,11 @@ std::vector<EvaluatedCheck> ReadChecks::evaluated(std::optional<std::size_t> onl
 
 CheckResults ReadChecks::listed(const std::vector<RequestedDataSet>& data_sets) {
     CheckResults results;
-    for (const auto& [name, plant] : session_.plants) results.rigs.push_back(name);
+    for (const auto& [name, plant] : session_.plants) results.plants.push_back(name);
     for (const RequestedDataSet& requested : data_sets) {
         const RunRecord record = runtime_.run_code(
-            fmt::format("_record(\"{}\", {}, {})", requested.rig, requested.specimen, requested.seed), requested.rig);
+            fmt::format("_record(\"{}\", {}, {})", requested.plant, requested.variant, requested.seed),
+            requested.plant);
         if (record.error) {
             results.error = with_place(*record.error);
             return results;
@@ -95,7 +96,7 @@ CheckResults ReadChecks::listed(const std::vector<RequestedDataSet>& data_sets) 
 }
 
 void ReadChecks::hand_over(const SubmissionToGrade& submission) {
-    session_.variants = submission.specimens;
+    session_.variants = submission.variants;
     session_.runs = submission.work.runs;
     session_.findings = submission.work.findings;
     session_.source = submission.work.source;

@@ -101,7 +101,7 @@ void GradingRules::read_checks() {
     if (!read.output) throw EnvironmentError("the checks cannot be read: {}", read.reason);
     if (read.output->error) throw EnvironmentError(*read.output->error);
     for (const EvaluatedCheck& one : read.output->checks) checks_.push_back(one.check);
-    declared_plants_ = read.output->rigs;
+    declared_plants_ = read.output->plants;
     if (checks_.empty()) throw EnvironmentError("lesson {} declares no checks", setup_.lesson.slug);
     for (const CheckDescription& check : checks_) {
         const std::string& rerun = check.rerun;

@@ -41,7 +41,7 @@ constexpr std::array kFigureGridOptions = {
     OptionEntry{"rows", ValueKind::kCount, about("number of rows of panels; by default as many as necessary")},
     OptionEntry{"columns", ValueKind::kCount, about("number of columns of panels"), {.initial = "1"}}};
 constexpr std::array kMotionOptions = {
-    OptionEntry{"rig", ValueKind::kText, about("name of the plant, such as \"crane\"")},
+    OptionEntry{"plant", ValueKind::kText, about("name of the plant, such as \"crane\"")},
     OptionEntry{"t", ValueKind::kVector, about("increasing sampling instants"), {.unit = "s"}},
     OptionEntry{"measured", ValueKind::kTable,
                 about("measured signals of the plant, a table with one vector per signal")},
@@ -313,7 +313,7 @@ int motion(Call& call) {
     call.at_most(1);
     const Options options(call, 1, kMotionTables);
     if (call.context().options.graded) return give_figure(call, Figure(Panel()));  // there are no drawings, and no eyes
-    const PlantDrawing plant = plant_drawing(options.text("rig", ""));
+    const PlantDrawing plant = plant_drawing(options.text("plant", ""));
     MotionData motion_data;
     motion_data.t = options.vector("t");
     motion_data.measured = signals_of_parts(options, "measured", plant, motion_data.t.size());

@@ -14,7 +14,7 @@ constexpr double kMaxPlantSeed = 0xFFFFFFFF;
 constexpr std::array kPlantSeedOptions = {option<&PlantChoice::seed>(
     "seed", about("seed of the noise and of random inputs"), {.minimum = 0, .maximum = kMaxPlantSeed})};
 constexpr std::array kPlantVariantOptions = {option<&PlantChoice::variant_number>(
-    "specimen", about("number of the unit of the plant; 0 is the unit that `SOURCE.md` documents"),
+    "variant", about("number of the unit of the plant; 0 is the unit that `SOURCE.md` documents"),
     {.minimum = 0, .maximum = kMaxPlantSeed})};
 constexpr OptionTable kPlantTables[] = {kPlantSeedOptions, kPlantVariantOptions},
                       kTrueModelTables[] = {kPlantVariantOptions};
@@ -98,15 +98,15 @@ int true_model(Call& call) {
     const Plant& plant = plant_of(call);
     const bool graded = call.context().options.graded;
     give_values(call, plant.truth(graded ? choice.variant_number | kUnassignedVariant : choice.variant_number),
-                fmt::format("rig_truth(\"{}\")", plant.name));
+                fmt::format("true_model(\"{}\")", plant.name));
     return 1;
 }
 
 constexpr FunctionEntry kPlantFunctions[] = {
-    {"rig", "data", "rig(name, {options}) -> table; rig() -> table",
+    {"plant", "data", "plant(name, {options}) -> table; plant() -> table",
      "Repeat a simulated experiment of the course; another seed changes the noise", guarded<memoized_call<plant>>,
      kPlantTables, kPlantArguments},
-    {"rig_truth", "data", "rig_truth(name, {options}) -> table",
+    {"true_model", "data", "true_model(name, {options}) -> table",
      "Return the theoretical values of a simulated experiment of the course", guarded<true_model>, kTrueModelTables,
      kPlantArguments},
 };

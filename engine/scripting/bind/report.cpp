@@ -47,8 +47,8 @@ constexpr std::array kPredictionArguments = {
     ArgumentEntry{"name", ValueKind::kText, about("name of the prediction, for `outcome`; use each name only once")},
     ArgumentEntry{"value", ValueKind::kNumber, about("your prediction, or nil if you have none yet")},
     ArgumentEntry{"unit", ValueKind::kText, about("unit after the numbers")}};
-constexpr std::array kOutcomeArguments = {
-    ArgumentEntry{"name", ValueKind::kText, about("name of a prediction stored by `guess`")},
+constexpr std::array kRevealArguments = {
+    ArgumentEntry{"name", ValueKind::kText, about("name of a prediction stored by `predict_first`")},
     ArgumentEntry{"value", ValueKind::kNumber, about("result, in the unit of the prediction")}};
 
 /// The name under which documents find an entry; each is given once per kind.
@@ -236,7 +236,7 @@ Message distance(double guessed, double found, const std::string& unit) {
     return Message("off by less than {} %", significant(0.01, 1));
 }
 
-int guess(Call& call) {
+int predict_first(Call& call) {
     call.at_most(3);
     lua_State* const L = call.state();
     const std::string name = call.text(1, "name");
@@ -259,14 +259,14 @@ int guess(Call& call) {
     return 0;
 }
 
-int outcome(Call& call) {
+int reveal(Call& call) {
     call.at_most(2);
     lua_State* const L = call.state();
     const std::string name = call.text(1, "name");
     const double found = call.number(2, Message("result"));
     push_predictions(L);
     if (lua_getfield(L, -1, name.c_str()) != LUA_TTABLE)
-        throw InvalidArgument("no prediction is named \"{}\"; write guess(\"{}\", NUMBER) first", name, name);
+        throw InvalidArgument("no prediction is named \"{}\"; write predict_first(\"{}\", NUMBER) first", name, name);
     lua_getfield(L, -1, "unit");
     const std::string unit = lua_tostring(L, -1);
     const Message shown = with_unit(found, unit);
@@ -295,10 +295,10 @@ constexpr FunctionEntry kReportFunctions[] = {
      guarded<report_language>},
     {"slider", "report", "slider(name, x, from, to, {options}) -> x",
      "Create a number that the reader of a page can change", guarded<slider>, kSliderTables, kSliderArguments},
-    {"guess", "report", "guess(name, value, unit)", "Store your prediction before you see the result", guarded<guess>,
-     kNoOptions, kPredictionArguments},
-    {"outcome", "report", "outcome(name, value)", "Print a prediction next to the result", guarded<outcome>, kNoOptions,
-     kOutcomeArguments},
+    {"predict_first", "report", "predict_first(name, value, unit)", "Store your prediction before you see the result",
+     guarded<predict_first>, kNoOptions, kPredictionArguments},
+    {"reveal", "report", "reveal(name, value)", "Print a prediction next to the result", guarded<reveal>, kNoOptions,
+     kRevealArguments},
 };
 
 }  // namespace

@@ -223,12 +223,7 @@ std::function<bool()> Call::cancel() const {
 }
 
 void Call::print(const std::string& text) const {
-    RuntimeContext& context = this->context();
-    if (context.recorder.printed_bytes() + text.size() > context.options.output_limit_bytes)
-        raise_stop(state_, StopReason::kOutputLimit);
-    context.recorder.print(text);
-    if (context.printed_by_call) *context.printed_by_call += text;
-    if (context.options.print) context.options.print(text);
+    print_text(state_, text);
 }
 
 void Call::print_lines(const std::string& text) const {

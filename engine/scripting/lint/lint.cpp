@@ -16,6 +16,7 @@
 #include "scripting/interpreter/runtime.h"
 #include "scripting/lint/function_forms.h"
 #include "scripting/lint/script_walk.h"
+#include "scripting/runtime/earlier_names.h"
 #include "scripting/runtime/errors.h"
 #include "scripting/runtime/shown_expressions.h"
 #include "scripting/source/lua_reader.h"
@@ -133,7 +134,9 @@ class Linter {
     void look_at_name(const GlobalUse& use, const std::set<std::string>& own, const std::vector<std::string>& names) {
         const auto known = library_names().find(use.name);
         if (known == library_names().end()) {
-            if (!own.contains(use.name))
+            if (!own.contains(use.name) && !present_name(use.name).empty())
+                add(use.begin, "earlier-name", renamed(use.name));
+            else if (!own.contains(use.name))
                 add(use.begin, "unknown-name", unknown_name(use.name, line_at(use.begin), names));
             return;
         }

@@ -95,6 +95,15 @@ void raise_stop(lua_State* L, StopReason reason) {
     raise_error(L, stop_sentence(context, reason));
 }
 
+void print_text(lua_State* L, const std::string& text) {
+    RuntimeContext& context = context_of(L);
+    if (context.recorder.printed_bytes() + text.size() > context.options.output_limit_bytes)
+        raise_stop(L, StopReason::kOutputLimit);
+    context.recorder.print(text);
+    if (context.printed_by_call) *context.printed_by_call += text;
+    if (context.options.print) context.options.print(text);
+}
+
 void push_error(lua_State* L, PlacedMessage error) {
     std::string text = error.text();
     lua_pushlstring(L, text.data(), text.size());

@@ -3,6 +3,7 @@
 #include <lua.hpp>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -57,6 +58,7 @@ struct RuntimeContext {
     bool main_chunk_known = false;
     bool running = false;
     bool sampling_time_reported = false;     ///< that iddata took 1 s
+    std::set<std::string> renamed_reported;  ///< earlier names of functions whose new name was printed
     bool time_unit_reported = false;         ///< that models say s where data count in another unit
     StopReason stop = StopReason::kNone;     ///< once set, every protected call passes the stop on
     std::shared_ptr<TimeBudget> budget;      ///< of the script, where it has limits
@@ -81,6 +83,8 @@ void poll_stop(lua_State* L);
 /// Passes a stop on that is under way, whatever the script tried to catch.
 void pass_stop_on(lua_State* L);
 [[noreturn]] void raise_stop(lua_State* L, StopReason reason);
+/// Adds to the run results and prints at once; raises the stop at the limit of output.
+void print_text(lua_State* L, const std::string& text);
 /// Pushes the text of an error, for scripts to catch, and keeps the error for that text.
 void push_error(lua_State* L, PlacedMessage error);
 /// Raises it with the place of the script's line.

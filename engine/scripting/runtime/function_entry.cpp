@@ -22,9 +22,10 @@ std::string signature_text(const FunctionEntry& function) {
 
 std::string other_spelling(std::string name) {
     static constexpr std::array kSpellings = {std::pair("color", "colour"), std::pair("centered", "centred"),
-                                              std::pair("realizations", "realisations")};
-    for (const auto& [american, british] : kSpellings)
-        if (name == american || name == british) return name == american ? british : american;
+                                              std::pair("realizations", "realisations"),
+                                              std::pair("variant", "specimen"), std::pair("plant", "rig")};
+    for (const auto& [present, earlier] : kSpellings)
+        if (name == present || name == earlier) return name == present ? earlier : present;
     if (name.empty()) return name;
     const auto first = static_cast<unsigned char>(name[0]);
     name[0] = static_cast<char>(std::isupper(first) ? std::tolower(first) : std::toupper(first));

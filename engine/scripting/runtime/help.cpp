@@ -15,6 +15,7 @@
 #include "numerics/error.h"
 #include "platform/spelling.h"
 #include "platform/text/small_letters.h"
+#include "scripting/runtime/earlier_names.h"
 #include "scripting/runtime/help_layout.h"
 #include "scripting/runtime/matlab_hints.h"
 
@@ -45,11 +46,7 @@ constexpr Synonym kSynonyms[] = {{"pole zero map", "pzmap"},
                                  {"two curves", "plot"},
                                  {"procest", "procsrivc"},
                                  {"idtf", "tf"},
-                                 {"predict_first", "guess"},
-                                 {"reveal", "outcome"},
-                                 {"plant", "rig"},
-                                 {"variant", "rig"},
-                                 {"true_model", "rig_truth"}};
+                                 {"variant", "plant"}};
 
 std::vector<std::string> help_names(const FunctionList& functions) {
     std::vector<std::string> names;
@@ -338,6 +335,8 @@ std::string help_overview(const FunctionList& functions, std::size_t width) {
 }
 
 std::string help_text(const std::string& name, const FunctionList& functions, std::size_t width) {
+    if (const std::string present(present_name(name)); !present.empty())
+        return filled(message_text(renamed(name)), width) + ".\n\n" + help_text(present, functions, width);
     if (const auto page = find_help_page(name)) return laid_out(page_text(*page, entry_of(name, functions)), width);
     if (const FunctionEntry* entry = entry_of(name, functions))
         return fmt::format("{}\n  {}\n", signature_text(*entry), entry->summary);

@@ -4,8 +4,11 @@
 #include <utility>
 #include <vector>
 
+#include "base/languages.h"
+#include "base/reader.h"
 #include "platform/spelling.h"
 #include "scripting/runtime/context.h"
+#include "scripting/runtime/earlier_names.h"
 #include "scripting/runtime/errors.h"
 #include "scripting/runtime/matlab_hints.h"
 #include "scripting/runtime/prompt_variables.h"
@@ -48,11 +51,22 @@ std::string key_text(lua_State* L, int index) {
     return luaL_typename(L, index);
 }
 
+/// Pushes the function that the script calls by an earlier name, and prints its present name once per run.
+void push_renamed(lua_State* L, const std::string& earlier) {
+    RuntimeContext& context = context_of(L);
+    push_library(L);
+    lua_pushstring(L, std::string(present_name(earlier)).c_str());
+    lua_rawget(L, -2);
+    if (context.renamed_reported.insert(earlier).second)
+        print_text(L, message_text(renamed(earlier), {catalog_of(context.services.language_code())}) + "\n");
+}
+
 /// __index of the table of functions: the script read an undefined name.
 int unknown_global(lua_State* L) {
     Message message;
     {
         const std::string name = key_text(L, 2);
+        if (!present_name(name).empty()) return push_renamed(L, name), 1;
         RuntimeContext& context = context_of(L);
         const ScriptPlace here = script_place(L);
         const bool of_script = here.file == context.script_name;

@@ -68,8 +68,8 @@ struct ArgumentEntry {
     MessageId<> description;
 };
 
-/// The other accepted spelling of an option: the British one, which older scripts use, or the first letter in the other
-/// case, because MATLAB's options are a mixture, Lambda and lambda.
+/// The other accepted name of an option: its earlier name or British spelling, which older scripts use, or the first
+/// letter in the other case, because MATLAB's options are a mixture, Lambda and lambda.
 std::string other_spelling(std::string name);
 
 /// The default as scripts write it; empty where there is none.
