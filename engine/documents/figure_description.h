@@ -32,7 +32,7 @@ DYNLAB_DESCRIBE(Panel, title, x_label, y_label, log_x, log_y, x_range, y_range, 
 DYNLAB_DESCRIBE(PlantPart, signal, unit, on, turns, x, y, by, drawn_at)
 DYNLAB_DESCRIBE(PlantShape, x, y, part, filled, look)
 DYNLAB_DESCRIBE(PlantDrawing, width, height, parts, pieces)
-DYNLAB_DESCRIBE(Motion, rig, picture, measured, simulated)
+DYNLAB_DESCRIBE(Motion, plant, picture, measured, simulated)
 DYNLAB_DESCRIBE(Figure, rows, columns, panels, title, width_cm, height_cm, motion)
 
 inline void check_value(const Figure& figure, const ValueLimits&) {

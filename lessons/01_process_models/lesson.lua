@@ -442,18 +442,18 @@ report.value("T_extra", 20/3, "%.0f")
 --
 -- # How accurate is a reading?
 --
--- **Question 10.** `rig("heat_exchanger", {seed = k})` repeats the experiment with different noise, on the heat exchanger shared by the whole class.
--- If your group has its own data, the file `SOURCE.md` next to the data contains the number of your unit. Pass this number as the option `specimen`.
+-- **Question 10.** `plant("heat_exchanger", {seed = k})` repeats the experiment with different noise, on the heat exchanger shared by the whole class.
+-- If your group has its own data, the file `SOURCE.md` next to the data contains the number of your unit. Pass this number as the option `variant`.
 -- Read and estimate the time constant of two hundred data sets. How large is the error of the reading? Are the standard errors of the estimate
--- correct? Now look up the true values with `rig_truth`.
+-- correct? Now look up the true values with `true_model`.
 --
--- First, enter a prediction: how many times larger is the standard deviation of the readings than the standard deviation of the estimates? `outcome`
+-- First, enter a prediction: how many times larger is the standard deviation of the readings than the standard deviation of the estimates? `reveal`
 -- prints your prediction next to the result.
 
 -- %% id=noise_guess
 -- BEGIN SOLUTION
--- STARTER: guess("scatter, reading over estimate", nil)
-guess("scatter, reading over estimate", 3)
+-- STARTER: predict_first("scatter, reading over estimate", nil)
+predict_first("scatter, reading over estimate", 3)
 -- END SOLUTION
 
 -- %% id=noise_study
@@ -461,13 +461,13 @@ guess("scatter, reading over estimate", 3)
 local runs = 200
 local T_reading, T_estimate, reported = zeros(runs), zeros(runs), zeros(runs)
 for k = 1, runs do
-    local again = rig("heat_exchanger", {seed = k})
+    local again = plant("heat_exchanger", {seed = k})
     local d = iddata(again.y, again.u, Ts)
     local G = procsrivc(d, "P1", steady)
     T_reading[k], T_estimate[k] = step_first_order(d).T, G.Tp1
     reported[k] = G.std[2]
 end
-local true_T = rig_truth("heat_exchanger").time_constant
+local true_T = true_model("heat_exchanger").time_constant
 local function bars(values, name)
     local drawn = histogram(values, {truth = true_T, xlabel = name})
     return drawn:set{x_range = {70, 81}}
@@ -475,7 +475,7 @@ end
 local study = subplot(2, 1, {bars(T_reading, "T, read off the figure (s)"),
                              bars(T_estimate, "T, estimated (s)")})
 report.figure("noise_study", study:set{height = 9}, "Two hundred experiments")
-outcome("scatter, reading over estimate", std(T_reading)/std(T_estimate))
+reveal("scatter, reading over estimate", std(T_reading)/std(T_estimate))
 -- END SOLUTION
 
 -- %% id=noise_study_report echo=false

@@ -190,12 +190,12 @@ report.value("rmse_later", sqrt(mean(residuals:range(2, N)^2)), "%.3f")
 -- where $t_{0.975,\,N-2}$ is the quantile of Student's distribution, `tinv(0.975, N - 2)`. Compare the forecast with the actual result.
 --
 -- Before you compute the interval, predict its half-width, which is the distance from the forecast to each limit. Replace `nil` in the next cell with
--- your prediction in seconds. After you compute the interval, `outcome("half-width of the interval", value)` prints your prediction next to the result.
+-- your prediction in seconds. After you compute the interval, `reveal("half-width of the interval", value)` prints your prediction next to the result.
 
 -- %% id=forecast_guess
 -- BEGIN SOLUTION
--- STARTER: guess("half-width of the interval", nil, "s")
-guess("half-width of the interval", 0.2, "s")
+-- STARTER: predict_first("half-width of the interval", nil, "s")
+predict_first("half-width of the interval", 0.2, "s")
 -- END SOLUTION
 
 -- %% id=forecast
@@ -209,7 +209,7 @@ local picture = regression_plot(years, y, line, {forecast = 2024, level = 0.95,
 picture:mark(2024, actual, string.format("actual: %.2f s", actual))
 picture:set{x_range = {1890, 2050}}
 report.figure("forecast", picture, "Line, 95 % bands and the forecast for 2024")
-outcome("half-width of the interval", (paris.high - paris.low)/2)
+reveal("half-width of the interval", (paris.high - paris.low)/2)
 -- END SOLUTION
 
 -- %% id=forecast_report echo=false

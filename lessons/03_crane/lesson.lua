@@ -363,13 +363,13 @@ end
 
 -- %% id=motion
 -- BEGIN SOLUTION
--- STARTER: -- motion{rig = "crane", t = crane.validation.t,
+-- STARTER: -- motion{plant = "crane", t = crane.validation.t,
 -- STARTER: --        measured = {position = crane.validation.x,
 -- STARTER: --                    angle = crane.validation.theta},
 -- STARTER: --        simulated = {position = ..., angle = ...}}
 do
     local x, theta = response(against)
-    motion{rig = "crane", t = against.t,
+    motion{plant = "crane", t = against.t,
            measured = {position = against.x - against.x[1], angle = against.theta - mean(against.theta:range(1, rest))},
            simulated = {position = x, angle = theta}}
 end
@@ -429,16 +429,16 @@ report.value("free_moved", 1e3*(max(swing.x) - min(swing.x)), "%.1f")
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 9.** One data set is one realization. You can run the simulated crane again: `rig("crane", {seed = 2})` repeats all five experiments
--- with a different binary sequence and different noise. First, enter a prediction (`guess`, `outcome`): which fit do you expect for the angle? Then
+-- **Question 9.** One data set is one realization. You can run the simulated crane again: `plant("crane", {seed = 2})` repeats all five experiments
+-- with a different binary sequence and different noise. First, enter a prediction (`predict_first`, `reveal`): which fit do you expect for the angle? Then
 -- repeat your whole procedure forty times. How large is the scatter of the fit, the parameters and the frequency? Do the standard errors agree with
 -- this scatter? How close is your model to the best linear model of this structure?
 
 -- %% id=repetition_guess
 -- BEGIN SOLUTION
--- STARTER: guess(say("angle: mean fit", "angle : adéquation moyenne"), nil, "%")
+-- STARTER: predict_first(say("angle: mean fit", "angle : adéquation moyenne"), nil, "%")
 local guessed = 96
-guess(say("angle: mean fit", "angle : adéquation moyenne"), guessed, "%")
+predict_first(say("angle: mean fit", "angle : adéquation moyenne"), guessed, "%")
 -- END SOLUTION
 
 -- %% id=repetition
@@ -447,7 +447,7 @@ local repetitions = 40
 local study = {x = {}, theta = {}, swing = {}, pendulum = {}, own_x = {}, own_theta = {}}
 local validations_x, validations_theta, scattered, a3_alone = {}, {}, {}, {position = {}, angle = {}}
 for k = 1, repetitions do
-    local again = rig("crane", {seed = k + 1})
+    local again = plant("crane", {seed = k + 1})
     local repeated_joint = joint_model(both(again.estimation))
     local repeated = recommended(repeated_joint)
     for i = 1, #rows do
@@ -482,7 +482,7 @@ for k = 1, repetitions do
     study.best_x[k] = fit(validations_x[k], best_x, resting)
     study.best_theta[k] = fit(validations_theta[k], best_theta, resting)
 end
-local truth = rig_truth("crane")
+local truth = true_model("crane")
 local function spread(list, format)
     local v = vector(list)
     return {string.format(format, mean(v)), string.format(format, std(v)), string.format(format, min(v)), string.format(format, max(v))}
@@ -500,7 +500,7 @@ add(say("angle: estimated from the same data (%)", "angle : ajusté à l'enregis
 add(say("swing frequency, from the poles (rad/s)", "oscillation, pôles du modèle (rad/s)"), study.swing, "%.3f")
 add(say("pendulum frequency, from the zeros of the position (rad/s)", "pendule, zéros de la position (rad/s)"), study.pendulum, "%.3f")
 report.table("repetition", repeated_rows)
-outcome(say("angle: mean fit", "angle : adéquation moyenne"), mean(vector(study.theta)))
+reveal(say("angle: mean fit", "angle : adéquation moyenne"), mean(vector(study.theta)))
 report.value("repetitions", repetitions, "%d")
 report.value("guessed_theta", guessed, "%d")
 report.value("expected_theta", mean(vector(study.theta)), "%.0f")

@@ -58,8 +58,8 @@
 -- `dynlab preview analysis.lua`, pas dans le rapport).
 
 -- %% [markdown]
--- **Question 9.** Un enregistrement n'est qu'une réalisation. On peut faire tourner de nouveau la grue simulée de ce cours : `rig("crane", {seed = 2})` répète les cinq
--- expériences avec un autre ordre des bits et un autre bruit. Devinez d'abord (`guess`, `outcome`) : quelle adéquation de l'angle est typique ? Puis répétez toute votre
+-- **Question 9.** Un enregistrement n'est qu'une réalisation. On peut faire tourner de nouveau la grue simulée de ce cours : `plant("crane", {seed = 2})` répète les cinq
+-- expériences avec un autre ordre des bits et un autre bruit. Devinez d'abord (`predict_first`, `reveal`) : quelle adéquation de l'angle est typique ? Puis répétez toute votre
 -- démarche quarante fois. De combien adéquation, paramètres et pulsation varient-ils d'une répétition à l'autre, les erreurs types annoncent-elles cette dispersion, et à quelle
 -- distance votre modèle est-il du meilleur modèle linéaire de cette structure ?
 

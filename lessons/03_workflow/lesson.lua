@@ -238,7 +238,7 @@ report.value("linear_yic_fit", choice(V, "yic", -1).validation_fit, "%.1f")
 -- more complex models.
 -- END SOLUTION
 --
--- **Question 3.** Does the choice depend on the noise? `rig("linear_system", {seed = k})` repeats both experiments with different noise. Count how
+-- **Question 3.** Does the choice depend on the noise? `plant("linear_system", {seed = k})` repeats both experiments with different noise. Count how
 -- often each criterion selects your structure.
 
 -- %% id=linear_repeat
@@ -246,7 +246,7 @@ report.value("linear_yic_fit", choice(V, "yic", -1).validation_fit, "%.1f")
 local repetitions = 30
 local agreed, alarms = {recommended = 0}, 0
 for seed = 1, repetitions do
-    local again = rig("linear_system", {seed = seed})
+    local again = plant("linear_system", {seed = seed})
     local e, v = iddata(again.y, again.u, Ts), iddata(again.y_val, again.u_val, Ts)
     local W = srivcstruc(e, {poles = {1, 4}, zeros = {0, 2}, validate = v})
     local function count(name, row)
@@ -382,12 +382,12 @@ report.value("alarms", alarms, "%d")
 -- residuals, not yet a reason to change the model.
 -- END SOLUTION
 --
--- **Question 6.** For this system, the true model is known: `rig_truth("linear_system").G`. Do your estimates agree with the true parameters within
+-- **Question 6.** For this system, the true model is known: `true_model("linear_system").G`. Do your estimates agree with the true parameters within
 -- the standard errors?
 
 -- %% id=linear_truth
 -- BEGIN SOLUTION
-local truth = rig_truth("linear_system").G
+local truth = true_model("linear_system").G
 local labels = {labels = {"estimate", "truth"}}
 local instants = linspace(0, 8, 321)
 local y, _, sd = step(G, instants)
@@ -492,12 +492,12 @@ advice(low)
 -- accurately, also estimate a constant offset (`Offset = "estimate"`). The process starts at rest (`InitialState = "none"`). How well does the model
 -- describe the two other data sets?
 --
--- First, enter a prediction: which fit will the model have on the data around 7 V? `outcome` prints your prediction next to the result.
+-- First, enter a prediction: which fit will the model have on the data around 7 V? `reveal` prints your prediction next to the result.
 
 -- %% id=heat_guess
 -- BEGIN SOLUTION
--- STARTER: guess("fit about 7 V", nil, "%")
-guess("fit about 7 V", 80, "%")
+-- STARTER: predict_first("fit about 7 V", nil, "%")
+predict_first("fit about 7 V", 80, "%")
 -- END SOLUTION
 
 -- %% id=heat_first
@@ -506,7 +506,7 @@ local function start(data) return detrend(data, "start") end
 local G1 = tfsrivc(start(low), 2, 0,
                    {TdMax = 20, InitialState = "none", Offset = "estimate"})
 print(G1)
-outcome("fit about 7 V", fit(start(high), G1))
+reveal("fit about 7 V", fit(start(high), G1))
 -- END SOLUTION
 
 -- %% id=heat_first_report echo=false
@@ -713,7 +713,7 @@ report.value("heat3_high", fit(f_records[3], G3), "%.0f")
 -- END SOLUTION
 --
 -- **Question 12.** With the correct input and preparation, are two poles enough? Which parameters can you trust? Compare them with
--- `rig_truth("heat_transfer")`. The true system has a dead time and three lags.
+-- `true_model("heat_transfer")`. The true system has a dead time and three lags.
 
 -- %% id=heat_orders
 -- BEGIN SOLUTION
@@ -730,18 +730,18 @@ local G3c = procsrivc(clean, "P3D",
 -- BEGIN SOLUTION
 -- STARTER: -- Not printed: report.value, report.figure and report.table for the text below.
 report.table("heat_orders", orders_table(W, "%.2f"))
-local rig = rig_truth("heat_transfer")
-local watts_per_volt = 2*rig.low.voltage
-local true_gain = rig.low.gain/watts_per_volt
-local true_lags = sort{rig.sensor_time, rig.low.fast}
+local heat_truth = true_model("heat_transfer")
+local watts_per_volt = 2*heat_truth.low.voltage
+local true_gain = heat_truth.low.gain/watts_per_volt
+local true_lags = sort{heat_truth.sensor_time, heat_truth.low.fast}
 local small = G3.Td + G3.Tp2
 local C = G3.report.white and G3.covariance or G3.robust_covariance
 local small_std = math.sqrt(C:at(3, 3) + C:at(4, 4) + 2*C:at(3, 4))
-local true_small = rig.dead_time + rig.sensor_time + rig.low.fast
+local true_small = heat_truth.dead_time + heat_truth.sensor_time + heat_truth.low.fast
 report.table("heat_truth", {
     {"lags", "gain (°C/W)", "slow (s)", "short (s)", "delay (s)", "sum (s)"},
-    {"truth", string.format("%.3f", true_gain), string.format("%.1f", rig.low.slow),
-     string.format("%.1f, %.1f", true_lags[2], true_lags[1]), string.format("%.1f", rig.dead_time), string.format("%.1f", true_small)},
+    {"truth", string.format("%.3f", true_gain), string.format("%.1f", heat_truth.low.slow),
+     string.format("%.1f, %.1f", true_lags[2], true_lags[1]), string.format("%.1f", heat_truth.dead_time), string.format("%.1f", true_small)},
     {"two", spread(G3, 1, "%.3f"), spread(G3, 2, "%.1f"), spread(G3, 3, "%.1f"), spread(G3, 4, "%.1f"),
      string.format("%.1f ± %.1f", small, small_std)},
     {"three", spread(G3c, 1, "%.3f"), spread(G3c, 2, "%.1f"), spread(G3c, 3, "%.1f") .. ", " .. spread(G3c, 4, "%.1f"),
@@ -755,7 +755,7 @@ report.value("heat_small", small, "%.2f")
 report.value("heat_small_std", small_std, "%.2f")
 report.value("heat_td", G3.Td, "%.2f")
 report.value("heat_td_std", errors(G3)[4], "%.2f")
-report.value("heat_td_ratio", (G3.Td - rig.dead_time)/errors(G3)[4], "%.0f")
+report.value("heat_td_ratio", (G3.Td - heat_truth.dead_time)/errors(G3)[4], "%.0f")
 report.value("heat_poles", W.best.poles, "%d")
 -- END SOLUTION
 

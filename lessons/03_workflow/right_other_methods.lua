@@ -10,9 +10,9 @@ report.figure("linear_resid", resid(check, G), "Residuals")
 
 local H = load("heat_transfer")
 local function filtered(y, u) return idfilt(detrend(iddata(y, 100*(u/10)^2, 1), "start"), {0.01, math.huge}, {order = 2}) end
-local rig = tfsrivc(filtered(H.y, H.u), 2, 0, {TdMax = 20})
-answer("G_heat", rig)
-report.figure("heat_high", compare(filtered(H.y_high, H.u_high), rig), "About 7 V")
+local plant = tfsrivc(filtered(H.y, H.u), 2, 0, {TdMax = 20})
+answer("G_heat", plant)
+report.figure("heat_high", compare(filtered(H.y_high, H.u_high), plant), "About 7 V")
 
 local d = load("hairdryer")
 local one, two = iddata(d.y, d.u, d.Ts):split(0.5)

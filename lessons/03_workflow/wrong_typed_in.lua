@@ -9,10 +9,10 @@ answer("G_linear", G)
 answer("linear_fit", fit(two, G))
 report.figure("linear_resid", resid(two, G), "Residuals")
 
-local rig = tf({0.667}, {64.6*5.5, 64.6 + 5.5, 1}, {IODelay = 4.1})
-answer("G_heat", rig)
+local plant = tf({0.667}, {64.6*5.5, 64.6 + 5.5, 1}, {IODelay = 4.1})
+answer("G_heat", plant)
 local H = load("heat_transfer")
-report.figure("heat_high", test_your_model(rig, detrend(iddata(H.y_high, H.u_high^2, 1), "start")), "About 7 V")
+report.figure("heat_high", test_your_model(plant, detrend(iddata(H.y_high, H.u_high^2, 1), "start")), "About 7 V")
 
 local d = load("hairdryer")
 local learn, check = iddata(d.y, d.u, d.Ts):split(0.5)

@@ -11,9 +11,9 @@ report.figure("linear_resid", resid(learn, G), "Residuals")
 
 local H = load("heat_transfer")
 local function prepared(y, u) return idfilt(detrend(iddata(y, u^2, 1), "start"), {0.015, math.huge}, {order = 2}) end
-local rig = procsrivc(prepared(H.y, H.u), "P2D", {TdMax = 20, InitialState = "none", Offset = "none"})
-answer("G_heat", rig)
-report.figure("heat_high", test_your_model(rig, prepared(H.y_high, H.u_high)), "About 7 V")
+local plant = procsrivc(prepared(H.y, H.u), "P2D", {TdMax = 20, InitialState = "none", Offset = "none"})
+answer("G_heat", plant)
+report.figure("heat_high", test_your_model(plant, prepared(H.y_high, H.u_high)), "About 7 V")
 
 local d = load("hairdryer")
 local _, half = iddata(d.y, d.u, d.Ts):split(0.5)

@@ -538,12 +538,12 @@ report.value("iv_more_error", 100*math.sqrt((1 - math.min(correlation, 1)^2)/(lo
 --
 -- **Question 12.** Double the noise to $\sigma = 0.4$. How do the estimates of the three methods change?
 --
--- First, enter a prediction: by what factor does the bias of LSSVF grow? `outcome` prints your prediction next to the result.
+-- First, enter a prediction: by what factor does the bias of LSSVF grow? `reveal` prints your prediction next to the result.
 
 -- %% id=noise_guess
 -- BEGIN SOLUTION
--- STARTER: guess("growth of the bias of a1", nil)
-guess("growth of the bias of a1", 4)
+-- STARTER: predict_first("growth of the bias of a1", nil)
+predict_first("growth of the bias of a1", 4)
 -- END SOLUTION
 
 -- %% id=more_noise
@@ -565,7 +565,7 @@ local function cloud(name)
 end
 local panels = subplot(1, 3, {cloud("LSSVF"), cloud("IVSVF"), cloud("TFSRIVC")})
 report.figure("scatter", panels:set{height = 6}, "200 data sets with σ = 0.4")
-outcome("growth of the bias of a1", high.LSSVF.bias[1]/low.LSSVF.bias[1])
+reveal("growth of the bias of a1", high.LSSVF.bias[1]/low.LSSVF.bias[1])
 -- END SOLUTION
 
 -- %% id=more_noise_report echo=false

@@ -132,13 +132,13 @@ report.value("snr_rest", 20*math.log(std(thrust(thruster.sine_300))/std(rest_rea
 -- filter preserve?
 --
 -- **Question 4.** Average the responses to many switchings. How long after a switching does the thrust not change? First, enter a prediction
--- (`guess`, `outcome`).
+-- (`predict_first`, `reveal`).
 
 -- %% id=switchings_guess
 -- BEGIN SOLUTION
--- STARTER: guess(say("time without a response", "temps sans réponse"), nil, "ms")
+-- STARTER: predict_first(say("time without a response", "temps sans réponse"), nil, "ms")
 local guessed = 20
-guess(say("time without a response", "temps sans réponse"), guessed, "ms")
+predict_first(say("time without a response", "temps sans réponse"), guessed, "ms")
 -- END SOLUTION
 
 -- %% id=switchings
@@ -162,7 +162,7 @@ for k = before + 1, #since do
     if not onset and answer_mean[k] > 0.01*max(answer_mean) then onset = since[k] end
 end
 
-outcome(say("time without a response", "temps sans réponse"), onset)
+reveal(say("time without a response", "temps sans réponse"), onset)
 
 local band = 8  -- Hz
 local function low_pass(v) return idfilt(v, {0, 2*math.pi*band}, {zero_phase = true, Ts = Ts}) end
@@ -256,7 +256,7 @@ end
 
 -- %% id=curve_report echo=false
 -- BEGIN SOLUTION
-local truth = rig_truth("thruster")
+local truth = true_model("thruster")
 report.value("edge_forward", dead_band_end[1], "%.0f")
 report.value("edge_reverse", dead_band_end[-1], "%.0f")
 report.value("lateness", 1e3*Ts*lateness, "%.0f")
@@ -505,17 +505,17 @@ report.figure("validation", figure{rows = 2, width = 14.4, height = 5.9, panels 
 
 -- %% id=motion
 -- BEGIN SOLUTION
--- STARTER: -- motion{rig = "thruster", t = thruster.square_300.t,
+-- STARTER: -- motion{plant = "thruster", t = thruster.square_300.t,
 -- STARTER: --        measured = {force = thruster.square_300.force}, simulated = {force = ...}}
 do
     local r = thruster.square_300
-    motion{rig = "thruster", t = r.t, instants = {0.3, 6.5, 12.5, 18.5}, height = 7,
+    motion{plant = "thruster", t = r.t, instants = {0.3, 6.5, 12.5, 18.5}, height = 7,
            measured = {force = thrust(r)}, simulated = {force = fitted.root.sine.simulate(width(r))}}
 end
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 9.** You can run the simulated thruster again: `rig("thruster", {seed = 2})` repeats all experiments with different noise. Repeat your
+-- **Question 9.** You can run the simulated thruster again: `plant("thruster", {seed = 2})` repeats all experiments with different noise. Repeat your
 -- procedure. Does the ranking of your models depend on the noise? How large is the scatter of the delay? Does noise explain the error of the delay?
 
 -- %% id=repetition
@@ -523,7 +523,7 @@ end
 local repetitions = 2
 local study = {}
 for k = 1, repetitions do
-    local again = rig("thruster", {seed = k + 1})
+    local again = plant("thruster", {seed = k + 1})
     for kind, estimate in pairs(kinds) do
         for _, shape in ipairs(shapes) do
             local G, simulate = estimate(again, shape, amplitudes)

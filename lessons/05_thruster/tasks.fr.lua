@@ -41,7 +41,7 @@
 -- **Question 3.** Le balayage carré fait vibrer quelque chose. Trouvez sa fréquence (`etfe` avec un peu de lissage, ou une moyenne sur de nombreuses
 -- commutations). Est-ce le propulseur ? Choisissez un filtre passe-bas pour ce que vous voulez voir du propulseur, et dites ce que le filtre ne doit pas faire.
 --
--- **Question 4.** Faites la moyenne des réponses à de nombreuses commutations. Pendant combien de temps ne se passe-t-il rien ? Devinez d'abord (`guess`, `outcome`).
+-- **Question 4.** Faites la moyenne des réponses à de nombreuses commutations. Pendant combien de temps ne se passe-t-il rien ? Devinez d'abord (`predict_first`, `reveal`).
 
 -- %% [markdown]
 -- **Question 5.** La poussée selon la largeur : filtrez les deux signaux de la même façon, prenez la partie lente des balayages sinusoïdaux, et faites des
@@ -64,7 +64,7 @@
 -- `motion` montre le propulseur et le modèle côte à côte, en mouvement (sur la page de `dynlab preview analysis.lua`, pas sur les diapositives).
 
 -- %% [markdown]
--- **Question 9.** On peut interroger de nouveau le propulseur de ce cours : `rig("thruster", {seed = 2})` répète tous les enregistrements avec un autre bruit.
+-- **Question 9.** On peut interroger de nouveau le propulseur de ce cours : `plant("thruster", {seed = 2})` répète tous les enregistrements avec un autre bruit.
 -- Répétez votre démarche. L'ordre de vos modèles est-il un hasard ? De combien le retard varie-t-il d'une répétition à l'autre, et son erreur est-elle due au bruit ?
 
 -- %% [markdown]

@@ -56,9 +56,9 @@ print(from)
 
 -- %% id=left_guess
 -- BEGIN SOLUTION
--- STARTER: guess(say("error of the angle, in sigmas",
+-- STARTER: predict_first(say("error of the angle, in sigmas",
 -- STARTER:           "erreur, en écarts types"), nil)
-guess(say("error of the angle, in sigmas", "erreur, en écarts types"), 1.5)
+predict_first(say("error of the angle, in sigmas", "erreur, en écarts types"), 1.5)
 -- END SOLUTION
 
 -- %% id=linear
@@ -72,7 +72,7 @@ local linear = tfsrivc(angle_of(crane.estimation), 3, 1, options)
 local angle_val = angle_of(crane.validation)
 local left = angle_val.y - lsim(linear, angle_val.u, Ts)
 local noise = std(crane.validation.theta:range(1, rest))
-outcome(say("error of the angle, in sigmas", "erreur, en écarts types"),
+reveal(say("error of the angle, in sigmas", "erreur, en écarts types"),
         std(left)/noise)  -- in standard deviations of the sensor noise
 local swing = plot(angle_val.t, angle_val.y, {color = 8, ylabel = "angle (rad)"})
 local seconds = say("time (s)", "temps (s)")
@@ -217,14 +217,14 @@ report.value("left_on_steps", angle_left(pushes, physics), "%.1f")
 -- ## A term written for convenience
 --
 -- **Question 4.** Interpret the parameters. Compute the length and the voltage lost to dry friction (`dry/gain`) with their standard errors. Estimate
--- them from `estimation`, from three repetitions (`rig("crane", {seed = 2})` and so on) and from `steps`. Compare them with `rig_truth("crane")`: the
+-- them from `estimation`, from three repetitions (`plant("crane", {seed = 2})` and so on) and from `steps`. Compare them with `true_model("crane")`: the
 -- frequency $\sqrt{g/l}$ of small swings, and `dry_voltage`. Then test your choice of $\delta$. Repeat the estimation with $\delta = 5$ mm/s and with
 -- half of your $\delta$, from `estimation` and from `steps`. Simulate each model on both kinds of data. Which conclusions depend on $\delta$? Do the
 -- standard errors indicate this dependence?
 
 -- %% id=meaning
 -- BEGIN SOLUTION
-local truth = rig_truth("crane")
+local truth = true_model("crane")
 local true_length = 9.81/truth.natural_frequency^2
 -- returns dry/gain and its standard error, from a first-order approximation
 local function dry_voltage(G)
@@ -237,7 +237,7 @@ local function dry_voltage(G)
 end
 local everything, repeated = variants[4][2], {physics}
 for seed = 2, 4 do
-    local again = swinging(rig("crane", {seed = seed}).estimation)
+    local again = swinging(plant("crane", {seed = seed}).estimation)
     repeated[seed] = greyest(again, everything, {Tol = 1e-3})
 end
 -- Estimates from the pulses, and with a narrower and a wider smooth step.
@@ -437,7 +437,7 @@ for _, warning in ipairs(simple.report.warnings) do print(warning) end
 -- **Question 7.** Now add the rims. A flow $\beta\max(h_1 - 20,\,0)$ (cm/s) leaves the upper tank over its rim. The fraction $q$ of this flow reaches
 -- the lower tank, which has the same kind of rim. Like $\delta$, the steepness $\beta$ is a number chosen for convenience: use 5 per second, then 50
 -- per second. Estimate the six parameters $k_1$, $k_2$, $k_3$, $k_4$, $q$ and $y_0$. Compare the free-run error with the sensor noise. Compare the
--- parameters with the true values over repetitions (`rig("two_tanks", {seed = 2})` and so on): what is their average error in standard errors?
+-- parameters with the true values over repetitions (`plant("two_tanks", {seed = 2})` and so on): what is their average error in standard errors?
 
 -- %% id=six_parameters
 -- BEGIN SOLUTION
@@ -455,7 +455,7 @@ end
 local gentle = greyest(estimation, with_rims(5, rough))
 local tank_model = greyest(estimation, with_rims(50, gentle))
 -- Returns the mean error of each parameter in standard errors, over repetitions.
-local tank_truth = rig_truth("two_tanks")
+local tank_truth = true_model("two_tanks")
 local true_six = vector{tank_truth.k1, tank_truth.k2, tank_truth.k3,
                         tank_truth.k4, tank_truth.overflow_part,
                         tank_truth.sensor_offset}
@@ -463,7 +463,7 @@ local function six_of(m) return vector{m.k1, m.k2, m.k3, m.k4, m.part, m.offset}
 local function mean_errors(steep, times)
     local sum = zeros(6)
     for seed = 2, times + 1 do
-        local again = rig("two_tanks", {seed = seed})
+        local again = plant("two_tanks", {seed = seed})
         local G = greyest(iddata(again.y, again.u, 4),
                           with_rims(steep, tank_model), {Tol = 1e-3})
         sum = sum + (six_of(G) - true_six)/six_of(G.std)
@@ -618,7 +618,7 @@ report.value("sindy_factor", found_equations.roots.report.coefficients[{4, 1}], 
 -- END SOLUTION
 --
 -- **Question 10.** Which model do you recommend, and for which purpose? One data set is one realization. Simulate ten other validation data sets
--- (`rig("two_tanks", {seed = 2})` and so on) with all models. Do not estimate the models again.
+-- (`plant("two_tanks", {seed = 2})` and so on) with all models. Do not estimate the models again.
 
 -- %% id=verdict
 -- BEGIN SOLUTION
@@ -626,7 +626,7 @@ local repetitions = 10
 local judged = {linear = {}, simple = {}, six = {}, narx = {},
                 polynomial = {}, roots = {}}
 for k = 1, repetitions do
-    local again = rig("two_tanks", {seed = k + 1})
+    local again = plant("two_tanks", {seed = k + 1})
     local record = iddata(again.y_val, again.u_val, 4)
     judged.linear[k] = error_on(record, best_linear)
     judged.simple[k] = error_on(record, simple)
@@ -677,7 +677,7 @@ local function with_its_offset(r)
     return volts(fit(iddata(r.y_val - offset, r.u_val, 4), best_linear, {InitialState = "estimate", Offset = "none"}), r.y_val)
 end
 local kept = {}
-for k = 1, repetitions do kept[k] = with_its_offset(rig("two_tanks", {seed = k + 1})) end
+for k = 1, repetitions do kept[k] = with_its_offset(plant("two_tanks", {seed = k + 1})) end
 report.value("kept_here", with_its_offset(tanks), "%.3f")
 report.value("kept_others", mean(vector(kept)), "%.3f")
 -- END SOLUTION

@@ -65,8 +65,8 @@
 --
 -- ## Un terme écrit par commodité
 --
--- **Question 4.** Que disent les paramètres ? Donnez la longueur et la tension que prend le frottement sec (`dry/gain`) avec leurs erreurs types, sur `estimation`, sur trois répétitions (`rig("crane", {seed = 2})` et ainsi de suite) et sur `steps`. Comparez-les à
--- `rig_truth("crane")` : la pulsation $\sqrt{g/l}$ des petites oscillations, et `dry_voltage`. Éprouvez ensuite le nombre que vous avez inventé. Estimez encore avec $\delta = 5$ mm/s et avec la moitié de votre $\delta$, sur `estimation` et sur `steps`, et simulez chaque modèle sur les deux enregistrements. Quelles conclusions dépendent de $\delta$ ? Les erreurs types vous auraient-elles averti ?
+-- **Question 4.** Que disent les paramètres ? Donnez la longueur et la tension que prend le frottement sec (`dry/gain`) avec leurs erreurs types, sur `estimation`, sur trois répétitions (`plant("crane", {seed = 2})` et ainsi de suite) et sur `steps`. Comparez-les à
+-- `true_model("crane")` : la pulsation $\sqrt{g/l}$ des petites oscillations, et `dry_voltage`. Éprouvez ensuite le nombre que vous avez inventé. Estimez encore avec $\delta = 5$ mm/s et avec la moitié de votre $\delta$, sur `estimation` et sur `steps`, et simulez chaque modèle sur les deux enregistrements. Quelles conclusions dépendent de $\delta$ ? Les erreurs types vous auraient-elles averti ?
 
 -- %% [markdown]
 -- BEGIN SOLUTION
@@ -109,7 +109,7 @@
 -- END SOLUTION
 --
 -- **Question 7.** Maintenant les bords. Un débit $\beta\max(h_1 - 20,\,0)$ (cm/s) quitte le réservoir supérieur par-dessus son bord, et la part $q$ en atteint l'inférieur, qui a un tel bord lui aussi. La raideur $\beta$ est un nombre de commodité, comme l'était $\delta$ : prenez 5 par seconde, puis 50. Estimez les six
--- paramètres $k_1$, $k_2$, $k_3$, $k_4$, $q$, $y_0$. Quelle est l'erreur en simulation libre ? Comparez-la au bruit du capteur, et les paramètres à la vérité, sur des répétitions (`rig("two_tanks", {seed = 2})` et ainsi de suite) : de combien d'erreurs types s'écartent-ils en moyenne ?
+-- paramètres $k_1$, $k_2$, $k_3$, $k_4$, $q$, $y_0$. Quelle est l'erreur en simulation libre ? Comparez-la au bruit du capteur, et les paramètres à la vérité, sur des répétitions (`plant("two_tanks", {seed = 2})` et ainsi de suite) : de combien d'erreurs types s'écartent-ils en moyenne ?
 
 -- %% [markdown]
 -- BEGIN SOLUTION
@@ -131,7 +131,7 @@
 -- BEGIN SOLUTION
 -- END SOLUTION
 --
--- **Question 10.** Quel modèle recommandez-vous, et pour quoi ? Un enregistrement n'est qu'une réalisation : simulez avec tous les modèles dix autres enregistrements de validation, `rig("two_tanks", {seed = 2})` et ainsi de suite, sans rien réestimer.
+-- **Question 10.** Quel modèle recommandez-vous, et pour quoi ? Un enregistrement n'est qu'une réalisation : simulez avec tous les modèles dix autres enregistrements de validation, `plant("two_tanks", {seed = 2})` et ainsi de suite, sans rien réestimer.
 
 -- %% [markdown]
 -- BEGIN SOLUTION

@@ -113,19 +113,19 @@ report.value("regulation_u", std(drive.regulation.u), "%.2f")
 -- The direct method uses $u$ and $y$ as if there were no feedback.
 --
 -- **Question 2.** Estimate @eq:plant with LSSVF, $\lambda = 10$ rad/s, and with SRIVC, each from `open_loop` and from `tracking`. Compare gain and
--- parameters with the true model, `rig_truth("drive").G`. First, enter a prediction: what is the error of the gain that SRIVC estimates in closed
+-- parameters with the true model, `true_model("drive").G`. First, enter a prediction: what is the error of the gain that SRIVC estimates in closed
 -- loop?
 
 -- %% id=direct_guess
 -- BEGIN SOLUTION
--- STARTER: guess(say("error of the gain", "erreur du gain"), nil, "%")
-guess(say("error of the gain", "erreur du gain"), -10, "%")
+-- STARTER: predict_first(say("error of the gain", "erreur du gain"), nil, "%")
+predict_first(say("error of the gain", "erreur du gain"), -10, "%")
 -- END SOLUTION
 
 -- %% id=direct
 -- BEGIN SOLUTION
 local lambda = 10
-local truth = rig_truth("drive")
+local truth = true_model("drive")
 -- the data begin at rest; by default, SRIVC selects the initial state from the data
 local from_rest = {InitialState = "none", Offset = "none"}
 local routes = {}
@@ -135,7 +135,7 @@ for name, record in pairs{open_loop = opened, tracking = track} do
 end
 present(routes.tracking.srivc)
 local function off(G) return 100*(dcgain(G)/dcgain(truth.G) - 1) end
-outcome(say("error of the gain", "erreur du gain"),
+reveal(say("error of the gain", "erreur du gain"),
         off(routes.tracking.srivc))
 -- END SOLUTION
 
@@ -175,7 +175,7 @@ report.value("true_fit", fit(pair(drive.validation), truth.G), "%.1f")
 --
 -- **Question 3.** What is the cause of this bias? Use the true $G$ to compute the residuals $v = y - G u$ in `tracking` and in `open_loop`. Compute
 -- the correlation of $v$ with earlier and with later voltages. With a single data set, random errors dominate, so compute the mean of twenty
--- repetitions, `rig("drive", {seed = k})`, and plot the confidence interval of the mean. At which lags is the correlation significant? Why is it
+-- repetitions, `plant("drive", {seed = k})`, and plot the confidence interval of the mean. At which lags is the correlation significant? Why is it
 -- significant on both sides? How does it differ from the correlation without feedback?
 
 -- %% id=correlation
@@ -207,7 +207,7 @@ end
 local times = 20
 local found = {loop = {}, open = {}, news = {}}
 for k = 1, times do
-    local again = rig("drive", {seed = k})
+    local again = plant("drive", {seed = k})
     local v, u = left_over(again.tracking), again.tracking.u
     found.loop[k], found.news[k] = correlation(v, u), correlation(news(v, u))
     found.open[k] = correlation(left_over(again.open_loop), again.open_loop.u)
@@ -459,7 +459,7 @@ for name, G in pairs{iv = Giv, cl = Gcl, library = Glib} do report.value(name ..
 -- The second session begins here: *accuracy, and changes over time*.
 -- :::
 --
--- **Question 8.** One data set is one realization. `rig("drive", {seed = 2})` repeats the experiments with a different binary sequence and a
+-- **Question 8.** One data set is one realization. `plant("drive", {seed = 2})` repeats the experiments with a different binary sequence and a
 -- different load. Repeat all methods forty times, and add two methods: the direct method with a noise model, `rivc(data, {1, 2, 2, 2, 0})`, and
 -- CLSRIVC with `route = "indirect"`, which fits the closed loop from $r$ to $y$. Which methods are biased, and by how many standard errors of the
 -- mean? Which method has the smallest scatter, and why? Which method do you recommend?
@@ -499,7 +499,7 @@ local ways = {
 local results = {}
 for i = 1, #ways do results[i] = {{}, {}, {}, {}} end
 for k = 1, repetitions do
-    local record = rig("drive", {seed = k + 1}).tracking
+    local record = plant("drive", {seed = k + 1}).tracking
     local data = iddata(record.y, record.u, Ts, {Reference = record.r})
     for i, way in ipairs(ways) do
         local p = way[2](data, record)
@@ -626,7 +626,7 @@ end
 add("all", whole)
 for k, piece in ipairs(pieces) do add(string.format("%d to %d", 850*(k - 1) + 1, 850*k), piece) end
 report.table("pieces", piece_rows)
-report.value("cleaning", rig_truth("drifting_process").cleaning_time, "%.0f")
+report.value("cleaning", true_model("drifting_process").cleaning_time, "%.0f")
 -- END SOLUTION
 
 -- %% [markdown]
@@ -653,7 +653,7 @@ report.value("cleaning", rig_truth("drifting_process").cleaning_time, "%.0f")
 -- gives the weight $f^n$ to a sample that is $n$ samples old. The last $1/(1 - f)$ samples have most of the weight.
 --
 -- **Question 10.** Program the recursion for @eq:heater ($\lambda = 0.05$ rad/s, $f = 0.99$). Then use the output of the single model of question 9
--- instead of $y$ as the instrument. Plot gain and time constant over time together with the true values, `rig_truth("drifting_process")`. Compare
+-- instead of $y$ as the instrument. Plot gain and time constant over time together with the true values, `true_model("drifting_process")`. Compare
 -- $a$, $b$ and $T$ with the true values before the heater was descaled, in the ten minutes after the cleaning, and later. How do the two methods
 -- differ?
 
@@ -692,7 +692,7 @@ local iv_gain, iv_time = recursion(lsim(whole, heater.u, 1), forgetting)
 -- %% id=recursion_report echo=false
 -- BEGIN SOLUTION
 -- STARTER: -- Not printed: report.value, report.figure and report.table for the text below.
-local scale = rig_truth("drifting_process")
+local scale = true_model("drifting_process")
 local shown = range(201, 10, #heater.t)  -- without the transient at the start
 local function pick(v)
     local list = {}
@@ -834,7 +834,7 @@ local rsriv_times = 10
 for _, f in ipairs{0.99, 0.995, 0.998} do
     local stuck = 0
     for k = 1, rsriv_times do
-        local again = rig("drifting_process", {seed = 40 + k})
+        local again = plant("drifting_process", {seed = 40 + k})
         local G = rsrivc(iddata(again.y, again.u, 1), {1, 1, 0}, pole, {forgetting = f, HistoryPoints = all})
         local off = mean(within(later, 1/G.history.theta:col(1) - scale.time_constant))
         if math.abs(off) > 5 then stuck = stuck + 1 end

@@ -47,7 +47,7 @@
 --
 -- Le plus simple est de prendre $u$ et $y$ comme s'il n'y avait pas de boucle.
 --
--- **Question 2.** Estimez l'@eq:plant par LSSVF, $\lambda = 10$ rad/s, et par SRIVC, chacun sur `open_loop` et sur `tracking`. Comparez gain et paramètres à la vérité, `rig_truth("drive").G`.
+-- **Question 2.** Estimez l'@eq:plant par LSSVF, $\lambda = 10$ rad/s, et par SRIVC, chacun sur `open_loop` et sur `tracking`. Comparez gain et paramètres à la vérité, `true_model("drive").G`.
 -- Devinez d'abord : de combien le gain que SRIVC trouve en boucle est-il faux ?
 
 -- %% [markdown]
@@ -55,7 +55,7 @@
 -- END SOLUTION
 --
 -- **Question 3.** D'où cela vient-il ? Prenez le vrai $G$ et calculez ce qu'il laisse dans `tracking` et dans `open_loop`, $v = y - G u$. Corrélez $v$ avec les tensions antérieures et
--- ultérieures. La corrélation varie d'un enregistrement à l'autre : prenez la moyenne de vingt répétitions, `rig("drive", {seed = k})`, et tracez son intervalle de confiance. Où n'est-elle pas nulle, pourquoi des deux côtés, et à quoi ressemblerait-elle sans boucle ?
+-- ultérieures. La corrélation varie d'un enregistrement à l'autre : prenez la moyenne de vingt répétitions, `plant("drive", {seed = k})`, et tracez son intervalle de confiance. Où n'est-elle pas nulle, pourquoi des deux côtés, et à quoi ressemblerait-elle sans boucle ?
 
 -- %% [markdown]
 -- BEGIN SOLUTION
@@ -103,7 +103,7 @@
 -- Ici commence la seconde séance : *certitude et temps*.
 -- :::
 --
--- **Question 8.** Un enregistrement n'est qu'une réalisation. `rig("drive", {seed = 2})` répète les essais avec un autre ordre de bits et une autre charge. Répétez toutes les voies quarante
+-- **Question 8.** Un enregistrement n'est qu'une réalisation. `plant("drive", {seed = 2})` répète les essais avec un autre ordre de bits et une autre charge. Répétez toutes les voies quarante
 -- fois, et deux de plus : la voie directe avec un modèle du bruit, `rivc(data, {1, 2, 2, 2, 0})`, et `route = "indirect"` de CLSRIVC, qui ajuste toute la boucle de $r$ à $y$. Lesquelles sont biaisées, et de combien d'erreurs types de leur moyenne ? Laquelle a la plus faible dispersion, et pourquoi ? Laquelle
 -- recommandez-vous ?
 
@@ -146,7 +146,7 @@
 -- compte, ce sont les $1/(1 - f)$ derniers.
 --
 -- **Question 10.** Écrivez la récursion pour l'@eq:heater ($\lambda = 0{,}05$ rad/s, $f = 0{,}99$). Prenez ensuite comme instrument la sortie du modèle unique de la question 9 au lieu de $y$. Tracez gain et constante de temps au
--- fil du temps à côté de la vérité, `rig_truth("drifting_process")`. Comparez $a$, $b$ et $T$ à la vérité avant le détartrage, dans les dix minutes qui suivent, et plus tard. Quelle est la différence entre les deux ?
+-- fil du temps à côté de la vérité, `true_model("drifting_process")`. Comparez $a$, $b$ et $T$ à la vérité avant le détartrage, dans les dix minutes qui suivent, et plus tard. Quelle est la différence entre les deux ?
 
 -- %% [markdown]
 -- BEGIN SOLUTION

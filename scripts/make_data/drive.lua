@@ -1,5 +1,5 @@
 -- Makes data/drive: experiments with the simulated drive (engine/numerics/plants/drive.h).
-local drive, records = rig().drive, rig("drive")
+local drive, records = plant().drive, plant("drive")
 for name, record in pairs(records) do
     save_csv("drive_" .. name .. ".csv", record, {units = drive.units, columns = drive.signals, Ts = drive.Ts,
              title = drive.title .. ", record " .. name})

@@ -174,7 +174,7 @@ TEST_F(preview_french, questions_and_plants_speak_it_too) {
         kFrench +
         "-- %% [markdown]\n-- ::: choice\n-- Combien font deux et deux ?\n--\n-- - [ ] Trois.\n--\n--   Il en manque.\n"
         "-- - [x] Quatre.\n--\n--   Comptez.\n-- :::\n\n-- %% id=mobile\nlocal t = linspace(0, 4, 201)\n"
-        "motion{rig = \"thruster\", t = t, measured = {force = 20*sin(t)}, simulated = {force = 18*sin(t)}}\n");
+        "motion{plant = \"thruster\", t = t, measured = {force = 20*sin(t)}, simulated = {force = 18*sin(t)}}\n");
     const Preview preview(file());
     Browser browser;
     browser.open(preview.address());

@@ -16,7 +16,7 @@ const std::string kQuestion =
     "--   One is missing.\n-- - [x] Four.\n--\n--   Count them.\n-- :::\n\n";
 const std::string kMotion =
     "-- %% id=moving\nlocal t = linspace(0, 4, 201)\n"
-    "motion{rig = \"thruster\", t = t, measured = {force = 20*sin(t)}, simulated = {force = 18*sin(t)}}\n";
+    "motion{plant = \"thruster\", t = t, measured = {force = 20*sin(t)}, simulated = {force = 18*sin(t)}}\n";
 
 TEST_F(preview_learning, questions_answer_and_stay_answered_while_the_document_changes) {
     write(kHead + kQuestion + kFirst);

@@ -66,7 +66,7 @@ TEST_F(try_pages, a_first_order_model_is_found_by_hand) {
     open("01_process_models", "and a first-order model");
     EXPECT_LT(said("fit "), 75);
     const double rest = value("box.plot.panels[0].curves[1].y[0]");
-    drag("63 %", 60 + 75, rest + 0.632 * 0.5 * 20);  // rig_truth: 0.501 °C/%, 76.2 s; the valve moves by 20 %
+    drag("63 %", 60 + 75, rest + 0.632 * 0.5 * 20);  // true_model: 0.501 °C/%, 76.2 s; the valve moves by 20 %
     EXPECT_NEAR(number("T"), 75, 0.1);
     EXPECT_NEAR(number("K"), 0.5, 0.001);
     EXPECT_GT(said("fit "), 95);
@@ -77,7 +77,7 @@ TEST_F(try_pages, a_first_order_model_is_found_by_hand) {
 
 TEST_F(try_pages, a_second_order_model_is_found_by_hand) {
     open("01_process_models", "and a second-order model");
-    drag("final level", 2.3, 10);  // rig_truth: 10 mm/V, 0.194, 12.9 rad/s
+    drag("final level", 2.3, 10);  // true_model: 10 mm/V, 0.194, 12.9 rad/s
     const double overshoot = std::exp(-M_PI * 0.2 / std::sqrt(1 - 0.04)), instant = M_PI / (13 * std::sqrt(1 - 0.04));
     for (int i = 0; i < 3; ++i) drag("first peak", instant, 10 * (1 + overshoot));  // its instant depends on z, too
     EXPECT_NEAR(number("K2"), 10, 1e-9);

@@ -217,9 +217,9 @@ TEST(custom_checks, rerun_on_records_of_a_plant_in_lua) {
     bench.bench().write(
         "own/more.lua",
         "local function gain(specimen) return 1 + specimen % 7 end\n"
-        "declare_rig{name = 'rc',\n"
-        "  record = function(s) rng(s.seed) local u = 1 + rand(20) return {u = u, y = gain(s.specimen)*u} end,\n"
-        "  truth = function(s) return {K = gain(s.specimen)} end}\n"
+        "declare_plant{name = 'rc',\n"
+        "  record = function(s) rng(s.seed) local u = 1 + rand(20) return {u = u, y = gain(s.variant)*u} end,\n"
+        "  truth = function(s) return {K = gain(s.variant)} end}\n"
         "check{id = 'follows', points = 2, rerun = 'rc', test = function(a, b) return near(b.K, truth(b).K) end}\n"
         "check{id = 'hidden', points = 1, test = function(a)\n"
         "  local d = hidden('rc') return near(mean(d.y)/mean(d.u), truth('rc').K) end}\n");
@@ -282,9 +282,9 @@ TEST(custom_checks, are_tried_on_what_is_known_to_be_right_or_wrong) {
 TEST(custom_checks, what_theory_says_earns_no_points_where_scripts_are_graded) {
     GradingBench bench(
         kGain, "check{id = 'K', test = function(a) return near(a.K, truth(a, 'suspension').gain, {rel = 0.01}) end}\n",
-        "local d = load('suspension')\nlocal theory = rig_truth('suspension').gain\n"
+        "local d = load('suspension')\nlocal theory = true_model('suspension').gain\n"
         "answer('K', mean(d.y:range(300, #d.y)))\n");
-    bench.submit_file("peeks", "answer('K', rig_truth('suspension').gain)\n");
+    bench.submit_file("peeks", "answer('K', true_model('suspension').gain)\n");
     bench.submit_file("computes", "local d = load('suspension')\nanswer('K', mean(d.y:range(300, #d.y)))\n");
     const ChildResult graded = bench.grade();
     ASSERT_EQ(graded.exit_code, 0) << graded.error_output;

@@ -114,7 +114,7 @@ const std::string kComputesGain = "local d = load(\"suspension\")\nanswer('K', m
 // oracle: the true model of the plant variant that each script names
 TEST(own_records, truth_is_that_of_the_record_which_the_answers_came_from) {
     const char* checks =
-        "local function gain(seed) return rig_truth('suspension', {specimen = seed}).gain end\n"
+        "local function gain(seed) return true_model('suspension', {variant = seed}).gain end\n"
         "local function says(words, ...)\n"
         "  local ended, message = pcall(truth, ...)\n"
         "  return not ended and tostring(message):find(words, 1, true) ~= nil\n"
@@ -127,7 +127,7 @@ TEST(own_records, truth_is_that_of_the_record_which_the_answers_came_from) {
         "  return truth(a, 'suspension').gain == gain(a.specimen) and truth(b).gain ~= gain(a.specimen)\n"
         "    and truth(b, 'suspension').gain == truth(b).gain and truth(b).gain == truth('suspension').gain end}\n"
         "check{id = 'not_own', test = function(a)\n"
-        "  return truth(a, 'thruster').delay == rig_truth('thruster').delay end}\n"
+        "  return truth(a, 'thruster').delay == true_model('thruster').delay end}\n"
         "check{id = 'refusals', test = function(a)\n"
         "  return says('give the data set', a) and says('answers', {}, 'suspension') and says('thrusters', a, "
         "'thrusters') end}\n";
@@ -170,7 +170,7 @@ TEST(own_records, check_promises_the_points_that_grade_gives) {
     EXPECT_EQ(bench.result("all").at("score"), 2);
     EXPECT_NE(work.read("in/group-7/data/suspension/SOURCE.md").find("\nSpecimen: 7\n"), std::string::npos);
     const char* repeated =
-        "print(max(abs(rig('suspension', {specimen = 7, seed = 7}).y - load('suspension').y)) < 1e-5)";
+        "print(max(abs(plant('suspension', {variant = 7, seed = 7}).y - load('suspension').y)) < 1e-5)";
     EXPECT_EQ(work.shell(std::string("cd in/group-7 && $DYNLAB run -e \"") + repeated + "\"").output, "true\n");
 }
 
@@ -179,7 +179,7 @@ TEST(own_records, are_given_whatever_the_lesson_calls_its_data) {
     const char* checks =
         "check{id = 'truth', test = function(a) return near(a.K, truth(a, 'suspension').gain, {rel = 0.02}) end}\n"
         "check{id = 'own', test = function(a)\n"
-        "  return truth(a, 'suspension').gain == rig_truth('suspension', {specimen = a.specimen}).gain end}\n";
+        "  return truth(a, 'suspension').gain == true_model('suspension', {variant = a.specimen}).gain end}\n";
     for (const char* loading :
          {"local d = load 'suspension'\n", "local name = [[suspension]]\nlocal d = load(name)\n"}) {
         GradingBench bench("--   K: number\n--   specimen: number\n", checks,

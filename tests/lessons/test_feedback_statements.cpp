@@ -79,7 +79,7 @@ TEST(lesson_07_feedback, finds_the_bias_of_the_loop_its_cures_and_the_drift) {
 /// the whole error, its part that the last 20 values do not predict, and the error in open loop.
 TEST(lesson_07_feedback, the_error_meets_earlier_voltages_only_because_it_lasts) {
     const auto record = record_of(R"(
-        local G, past, times = rig_truth("drive").G, 20, 60
+        local G, past, times = true_model("drive").G, 20, 60
         local sums = {}
         local function correlate(name, v, u)
             v, u = v - mean(v), u - mean(u)
@@ -90,13 +90,13 @@ TEST(lesson_07_feedback, the_error_meets_earlier_voltages_only_because_it_lasts)
             end
         end
         for k = 1, times do
-            local rig = rig("drive", {seed = 300 + k})
-            local v, u = rig.tracking.y - lsim(G, rig.tracking.u, 0.01), rig.tracking.u
+            local drive = plant("drive", {seed = 300 + k})
+            local v, u = drive.tracking.y - lsim(G, drive.tracking.u, 0.01), drive.tracking.u
             correlate("loop_", v, u)
             local columns = {}
             for i = 1, past do columns[i] = v:range(past + 1 - i, #v - i) end
             correlate("news_", lsq(matrix(columns), v:range(past + 1, #v)).residuals, u:range(past + 1, #u))
-            correlate("open_", rig.open_loop.y - lsim(G, rig.open_loop.u, 0.01), rig.open_loop.u)
+            correlate("open_", drive.open_loop.y - lsim(G, drive.open_loop.u, 0.01), drive.open_loop.u)
         end
         for name, c in pairs(sums) do report.value(name, c, "%.4f") end)");
     EXPECT_LT(number(record, "loop_before"), number(record, "loop_after")) << "the earlier side is the larger one";
@@ -156,7 +156,7 @@ TEST(lesson_07_feedback, a_record_at_rest_describes_the_process_in_principle_onl
 TEST(lesson_07_feedback, a_right_noise_model_or_the_reference_cures_and_the_filter_decides_the_scatter) {
     const auto record = record_of(R"(
         local Ts, times, z = 0.01, 30, tf("z", 0.01)
-        local C, G = (0.12 + 0.6*Ts*z/(z - 1))/z, rig_truth("drive").G
+        local C, G = (0.12 + 0.6*Ts*z/(z - 1))/z, true_model("drive").G
         local function own(r, n)
             local Y, U = svf(r.y, 2, 10, {Ts = Ts, hold = "foh"}), svf(r.u, 2, 10, {Ts = Ts, hold = "zoh"})
             local R = svf(r.r, n, 10, {Ts = Ts, hold = "zoh"})
@@ -170,7 +170,7 @@ TEST(lesson_07_feedback, a_right_noise_model_or_the_reference_cures_and_the_filt
             table.insert(found[name][3], error or 0)
         end
         for k = 1, times do
-            local r = rig("drive", {seed = 500 + k}).tracking
+            local r = plant("drive", {seed = 500 + k}).tracking
             local data = iddata(r.y, r.u, Ts, {Reference = r.r})
             keep("srivc", srivc(data, {1, 2, 0}).param)
             keep("rivc_2", rivc(data, {1, 2, 2, 2, 0}).param)
@@ -207,7 +207,7 @@ TEST(lesson_07_feedback, a_right_noise_model_or_the_reference_cures_and_the_filt
 TEST(lesson_07_feedback, white_noise_turns_the_order_of_scatter_round) {
     const auto record = record_of(R"(
         local Ts, z, r = 0.01, tf("z", 0.01), load("drive").tracking.r
-        local C, G, refined, filtered = (0.12 + 0.6*Ts*z/(z - 1))/z, rig_truth("drive").G, {}, {}
+        local C, G, refined, filtered = (0.12 + 0.6*Ts*z/(z - 1))/z, true_model("drive").G, {}, {}
         for k = 1, 40 do
             rng(k)
             local white = simloop(G, C, r, Ts, {noise = 1.5*randn(#r)})
@@ -223,11 +223,11 @@ TEST(lesson_07_feedback, the_doubt_about_two_stages_stays_with_more_repetitions)
     const auto record = record_of(R"(
         local a, times = {}, 150
         for k = 1, times do
-            local r = rig("drive", {seed = 700 + k}).tracking
+            local r = plant("drive", {seed = 700 + k}).tracking
             a[k] = clsrivc(iddata(r.y, r.u, 0.01, {Reference = r.r}), {1, 2, 0}, {route = "two-stage"}).param[1]
         end
         a = vector(a)
-        report.value("t", (mean(a) - rig_truth("drive").G.den[2])/(std(a)/math.sqrt(times)), "%.2f"))");
+        report.value("t", (mean(a) - true_model("drive").G.den[2])/(std(a)/math.sqrt(times)), "%.2f"))");
     EXPECT_LT(number(record, "t"), -2.5);
 }
 
@@ -237,7 +237,7 @@ TEST(lesson_07_feedback, other_drives_are_found_as_closely_as_the_check_asks) {
         local z, worst_pole, worst_gain = tf("z", 0.01), 0, 0
         local C = (0.12 + 0.006*z/(z - 1))/z
         for k = 1, 40 do
-            local r, G = rig("drive", {specimen = k, seed = k}).tracking, rig_truth("drive", {specimen = k}).G
+            local r, G = plant("drive", {variant = k, seed = k}).tracking, true_model("drive", {variant = k}).G
             local found = clsrivc(iddata(r.y, r.u, 0.01, {Reference = r.r}), {1, 2, 0}, {controller = C})
             worst_pole = math.max(worst_pole, math.abs(found.den[2]/G.den[2] - 1))
             worst_gain = math.max(worst_gain, math.abs(dcgain(found)/dcgain(G) - 1))
@@ -251,10 +251,10 @@ TEST(lesson_07_feedback, other_drives_are_found_as_closely_as_the_check_asks) {
 /// The library's recursions on twenty repetitions; the lesson uses its own recursions on one.
 TEST(lesson_07_feedback, a_jump_of_the_process_misleads_least_squares_and_a_slow_drift_does_not) {
     const auto record = record_of(R"(
-        local truth, sums, times = rig_truth("drifting_process"), {}, 20
+        local truth, sums, times = true_model("drifting_process"), {}, 20
         local sections = {before = {501, 3200}, after = {3202, 3801}, later = {3802, 5100}}
         for k = 1, times do
-            local h = rig("drifting_process", {seed = 40 + k})
+            local h = plant("drifting_process", {seed = 40 + k})
             local data = iddata(h.y, h.u, 1)
             local function follow(name, method, f)
                 local a = method(data, {1, 1, 0}, 0.05, {forgetting = f, HistoryPoints = #h.t}).history.theta:col(1)

@@ -52,7 +52,7 @@ TEST_F(group_data, is_found_however_a_script_spells_its_name) {
 
 TEST_F(group_data, is_not_what_a_script_only_speaks_of) {
     for (const char* code : {"-- load(\"crane\")", "print('load(\"crane\")')", "if false then load('crane') end",
-                             "local w = load('winning_times')", "local r = rig('crane')", "local text = 'crane'"})
+                             "local w = load('winning_times')", "local r = plant('crane')", "local text = 'crane'"})
         EXPECT_THAT(data_of(code), IsEmpty()) << code;
 }
 
@@ -84,7 +84,7 @@ TEST_F(group_data, records_are_the_bytes_that_lua_saves) {
         Runtime runtime(options, renderer);
         const std::string file = plant.name + ".mat";
         const RunRecord run = runtime.run_code(
-            "save_mat('" + file + "', rig('" + plant.name + "', {specimen = 5, seed = 6}), {digits = 7})", "made.lua");
+            "save_mat('" + file + "', plant('" + plant.name + "', {variant = 5, seed = 6}), {digits = 7})", "made.lua");
         ASSERT_FALSE(run.error) << run.error->text();
         EXPECT_TRUE(read_file(ours / file) == read_file(theirs / file)) << plant.name;
     }

@@ -334,7 +334,7 @@ TEST(lesson_pages, of_crane_and_thruster_show_the_plant_in_motion_and_copies_say
         EXPECT_EQ(signals, static_cast<std::size_t>(parts));
         EXPECT_LT(page.size(), 3u << 20);
         ASSERT_EQ(bench.dynlab({"new", lesson, "mine"}).exit_code, 0);
-        EXPECT_THAT(bench.read("mine/analysis.lua"), HasSubstr("-- motion{rig = "));
+        EXPECT_THAT(bench.read("mine/analysis.lua"), HasSubstr("-- motion{plant = "));
     }
 }
 

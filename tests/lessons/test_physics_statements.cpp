@@ -233,7 +233,7 @@ local function model(gain, viscous, length)
 end
 -- no record of the lesson; the second from a start far away, within bounds
 for _, case in ipairs{{5, "estimation", 1, 15, 0.4}, {9, "estimation", 1, 1, 0.5}, {6, "steps", 1, 15, 0.4}} do
-    local G = greyest(rested(rig("crane", {seed = case[1]})[case[2]]), model(case[3], case[4], case[5]), {Tol = 1e-3})
+    local G = greyest(rested(plant("crane", {seed = case[1]})[case[2]]), model(case[3], case[4], case[5]), {Tol = 1e-3})
     report.value("dry_" .. case[1], G.dry/G.gain, "%.6f")
     report.value("length_" .. case[1], G.length, "%.6f")
 end
@@ -344,7 +344,7 @@ for name, k4 in pairs{low = 0.05, high = 0.07} do
 end
 local products = 0
 for seed = 1, 8 do
-    local again = rig("two_tanks", {seed = seed})
+    local again = plant("two_tanks", {seed = seed})
     local G = narx(iddata(again.y, again.u, 4), {4, 4, 1}, {degree = 2})
     products = products + missed(G, iddata(again.y_val, again.u_val, 4))/8
 end

@@ -70,7 +70,7 @@ TEST_F(caches, two_runs_at_once_give_the_same_document) {
 }
 
 TEST_F(caches, serve_run_too) {
-    const std::string code = "print(rig('crane', {seed = 7}).estimation.x[100])";
+    const std::string code = "print(plant('crane', {seed = 7}).estimation.x[100])";
     const std::string first = bench_.dynlab({"run", "-e", code}).output;
     EXPECT_EQ(bench_.shell("ls ../cache/dynlab/calls | wc -l").output, "1\n");
     EXPECT_EQ(bench_.dynlab({"run", "-e", code}).output, first);

@@ -18,13 +18,13 @@ TEST(inspect, prints_the_description_and_draws_what_is_asked_for) {
     const ChildResult result = bench.dynlab({"inspect", "record.csv"});
     EXPECT_EQ(result.exit_code, 0) << result.error_output;
     EXPECT_THAT(result.output, AllOf(StartsWith("record.csv: a table of 3 columns and 3 rows\n"),
-                                     EndsWith("\npicture: record_look.pdf\n")));
-    EXPECT_THAT(bench.shell("pdftotext record_look.pdf -").output, AllOf(HasSubstr("u (V)"), HasSubstr("time (s)")));
+                                     EndsWith("\npicture: record_inspect.pdf\n")));
+    EXPECT_THAT(bench.shell("pdftotext record_inspect.pdf -").output, AllOf(HasSubstr("u (V)"), HasSubstr("time (s)")));
     EXPECT_EQ(bench.dynlab({"inspect", "record.csv", "-o", "a.svg"}).exit_code, 0);
     EXPECT_THAT(bench.read("a.svg"), HasSubstr("<svg"));
-    ASSERT_TRUE(std::filesystem::remove(bench.path("record_look.pdf")));
+    ASSERT_TRUE(std::filesystem::remove(bench.path("record_inspect.pdf")));
     EXPECT_EQ(bench.dynlab({"inspect", "record.csv", "--no-picture"}).exit_code, 0);
-    EXPECT_FALSE(std::filesystem::exists(bench.path("record_look.pdf")));
+    EXPECT_FALSE(std::filesystem::exists(bench.path("record_inspect.pdf")));
     EXPECT_EQ(bench.dynlab({"inspect", "none.csv"}).exit_code, 1);
     EXPECT_EQ(bench.dynlab({"inspect"}).exit_code, 2);
 }

@@ -142,14 +142,14 @@ TEST(function_tables, refuse_an_unknown_option_with_the_nearest_name) {
              {"plot({1, 2}, {1, 2}, {titel = 'x'})", "unknown option 'titel'; did you mean 'title'?"},
              {"multisine(64, {line = {1}})", "unknown option 'line'; did you mean 'lines'?"},
              {"slider('gain', 1, 0, 2, {lable = 'x'})", "unknown option 'lable'; did you mean 'label'?"},
-             {"rig('crane', {sed = 3})", "unknown option 'sed'; did you mean 'seed'?"}})
+             {"plant('crane', {sed = 3})", "unknown option 'sed'; did you mean 'seed'?"}})
         EXPECT_THAT(error_of(data + call), HasSubstr(said)) << call;
 }
 
 TEST(function_tables, refuse_values_beyond_the_bounds_and_choices) {
     for (const auto& [call, said] : std::vector<std::pair<std::string, std::string>>{
              {"multisine(64, {periods = 0})", "option 'periods' must be at least 1, but 0 was given"},
-             {"rig('crane', {seed = 2^33})",
+             {"plant('crane', {seed = 2^33})",
               "option 'seed' must be between 0 and 4294967295, but 8589934592 was given"},
              {"chirp(0.1, 1, 10, 0.01, {shape = 'saw'})",
               R"(option 'shape' must be one of "sine", "square", but "saw" was given)"},

@@ -196,9 +196,8 @@ TEST(help, finds_functions_by_terms_of_other_programs) {
                                                                     {"plot two curves", "plot"},
                                                                     {"procest", "procsrivc"},
                                                                     {"idtf", "tf"},
-                                                                    {"predict_first", "guess"},
-                                                                    {"reveal", "outcome"},
-                                                                    {"simulated plant", "rig"}})
+                                                                    {"variant", "plant"},
+                                                                    {"simulated plant", "plant"}})
         EXPECT_THAT(help_search(term, all), HasSubstr("  " + std::string(name) + " ")) << term;
 }
 

@@ -40,6 +40,7 @@ constexpr const char* kAnswered = "-- ---\n-- title: T\n-- answers:\n--   gain: 
 const Planted kPlanted[] = {
     // names
     {"print(zzz)\n      ^", "unknown-name", "'zzz'"},
+    {"guess('x', 1)\n^", "earlier-name", "predict_first"},
     {"local x = 1\nprnt(x)\n^", "unknown-name", "did you mean 'print'"},
     {"local y = load(\"crane\")\nlocal G = srvic(y, {1, 2, 0})\n          ^", "unknown-name", "did you mean 'srivc'"},
     {"print(pi)\n      ^", "unknown-name", "math.pi"},
@@ -77,7 +78,7 @@ const Planted kPlanted[] = {
     {"histogram({1, 2, 3}, {bin = 3})\n                      ^", "unknown-option", "did you mean 'bins'"},
     {"dynlab.histogram({1, 2, 3}, {number = 3})\n                             ^", "unknown-option", "the options are"},
     {"load(\"crane\", {skipp = 3})\n               ^", "unknown-option", "did you mean 'skip'"},
-    {"rig(\"crane\", {sed = 3})\n              ^", "unknown-option", "did you mean 'seed'"},
+    {"plant(\"crane\", {sed = 3})\n              ^", "unknown-option", "did you mean 'seed'"},
     {"figure{titel = \"t\", panels = {}}\n       ^", "unknown-option", "did you mean 'title'"},
     {"montecarlo{runns = 3}\n           ^", "unknown-option", "did you mean 'runs'"},
     // text that is no Lua

@@ -70,7 +70,7 @@ TEST_F(memoized_calls, values_come_back_bit_by_bit) {
           "ss(G0)",
           "pole(G0)",
           "pole(G0)[1]",
-          "rig('thruster')",
+          "plant('thruster')",
           "step(G0)",
           "srivc(d, {1, 2, 0})",
           "coe(d, {1, 2, 0}, {Offset = 'estimate'})",

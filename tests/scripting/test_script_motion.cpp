@@ -55,7 +55,7 @@ TEST(script_motion, plants_are_made_of_the_shapes_of_documents) {
 
 TEST(script_motion, keeps_signals_and_plant_in_one_figure) {
     const RunRecord record = test::run(kDataSet +
-                                       "report.figure('m', motion{rig = 'crane', t = t, measured = s,\n"
+                                       "report.figure('m', motion{plant = 'crane', t = t, measured = s,\n"
                                        "simulated = s, instants = {0.5, 1.5}, title = 'Both', width = 12}, '')");
     ASSERT_FALSE(record.error) << record.error->text();
     const Figure& figure = *record.figures.at("m").figure;
@@ -72,7 +72,7 @@ TEST(script_motion, where_scripts_are_graded_draws_nothing_and_stops_nothing) {
     graded.graded = true;
     const test::EnvironmentVariable home("DYNLAB_HOME", "/nowhere");
     for (const char* options : {"measured = s", "measured = t", "measured = {angle = t, more = t}, simulated = s"}) {
-        const RunRecord record = test::run(kDataSet + "motion{rig = 'crane', t = t, " + options + "}", graded);
+        const RunRecord record = test::run(kDataSet + "motion{plant = 'crane', t = t, " + options + "}", graded);
         EXPECT_FALSE(record.error) << options << ": " << record.error->text();
     }
 }
@@ -82,18 +82,19 @@ TEST(script_motion, says_what_is_missing) {
     EXPECT_THAT(
         reported("t = t, measured = s"),
         HasSubstr("unknown animated plant ''; the plants are crane, drifting_process, drive, thruster, two_tanks"));
-    EXPECT_THAT(reported("rig = 'suspension', t = t, measured = s"), HasSubstr("unknown animated plant 'suspension'"));
+    EXPECT_THAT(reported("plant = 'suspension', t = t, measured = s"),
+                HasSubstr("unknown animated plant 'suspension'"));
     EXPECT_THAT(
-        reported("rig = 'crane', t = t, measured = {angle = s.angle}"),
+        reported("plant = 'crane', t = t, measured = {angle = s.angle}"),
         HasSubstr(
             "option 'measured' does not contain the signal position (m), which the animation of the plant needs"));
-    EXPECT_THAT(reported("rig = 'thruster', t = t, simulated = {force = {1, 2}}"),
+    EXPECT_THAT(reported("plant = 'thruster', t = t, simulated = {force = {1, 2}}"),
                 HasSubstr("the simulated force has 2 values for 201 instants"));
-    EXPECT_THAT(reported("rig = 'thruster', t = t, simulated = {force = 'much'}"),
+    EXPECT_THAT(reported("plant = 'thruster', t = t, simulated = {force = 'much'}"),
                 HasSubstr("the simulated force must be a vector, but it is"));
-    EXPECT_THAT(reported("rig = 'crane', t = t, measured = 3"), HasSubstr("must be a table such as {position = y}"));
-    EXPECT_THAT(reported("rig = 'crane', t = t"), HasSubstr("measured or simulated"));
-    EXPECT_THAT(reported("rig = 'crane', time = t, measured = s"), HasSubstr("time"));
+    EXPECT_THAT(reported("plant = 'crane', t = t, measured = 3"), HasSubstr("must be a table such as {position = y}"));
+    EXPECT_THAT(reported("plant = 'crane', t = t"), HasSubstr("measured or simulated"));
+    EXPECT_THAT(reported("plant = 'crane', time = t, measured = s"), HasSubstr("time"));
 }
 
 }  // namespace test_script_motion

@@ -107,10 +107,10 @@ TEST(web_numbers, whole_numbers_beyond_an_index_are_those_of_the_native_program)
     const Workbench bench;
     bench.write("analysis.lua",
                 "-- %% id=seeds\n"
-                "local own = {specimen = 3844151627, seed = 2528797659}\n"
+                "local own = {variant = 3844151627, seed = 2528797659}\n"
                 "rng(4294967295)\n"
-                "print(rand(), own.seed, rig(\"step_response\", own).y_noisy[2])\n"
-                "print(rig_truth(\"step_response\", {specimen = own.specimen}).a)\n"
+                "print(rand(), own.seed, plant(\"step_response\", own).y_noisy[2])\n"
+                "print(true_model(\"step_response\", {variant = own.specimen}).a)\n"
                 "print(multisine(16, {seed = own.seed})[3])\n"
                 "-- %% id=sizes\n"
                 "local short = vector{1, 2, 3}\n"

@@ -23,7 +23,7 @@ int inspect(const InspectArguments& args) {
     std::fflush(stdout);
     if (!seen.figure || args.no_picture) return kDone;
     const std::filesystem::path file =
-        args.picture.empty() ? std::filesystem::path(args.data).stem().string() + "_look.pdf" : args.picture;
+        args.picture.empty() ? std::filesystem::path(args.data).stem().string() + "_inspect.pdf" : args.picture;
     GnuplotRenderer renderer;
     renderer.draw(*seen.figure, file, figure_format(file));
     renderer.finish();
@@ -42,7 +42,7 @@ void add_inspect(CLI::App& app, Action& action) {
                      ".mat file, table (.csv, .txt, .dat, .tsv, .lvm, .xlsx), or name of a data set")
         ->required();
     auto* picture = command->add_option("-o,--output-file", args->picture,
-                                        "Picture to create (.pdf, .svg or .png). Default: DATA_look.pdf.");
+                                        "Picture to create (.pdf, .svg or .png). Default: DATA_inspect.pdf.");
     picture->type_name("FILE");
     command->add_flag("--no-picture", args->no_picture, "Print the text without a picture")->excludes(picture);
     command->add_option("--skip", args->import.skip, "Number of lines to skip before the table")->type_name("N");

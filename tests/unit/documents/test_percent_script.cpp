@@ -178,12 +178,12 @@ TEST(percent_script, the_students_copy_is_in_one_language) {
     const std::string function =
         "local function say(english, french)\n    return report.language() == \"fr\" and french or english\nend\n";
     const std::string calls =
-        "local axis = say(\"time (s)\", \"temps (s)\")\nguess(say(\"a\",\n          \"b\"), nil)\nessay(\"x\", "
+        "local axis = say(\"time (s)\", \"temps (s)\")\npredict_first(say(\"a\",\n          \"b\"), nil)\nessay(\"x\", "
         "\"y\")\n";
     EXPECT_EQ(without_solutions(function + calls, "a.lua", "en"),
-              "local axis = \"time (s)\"\nguess(\"a\", nil)\nessay(\"x\", \"y\")\n");
+              "local axis = \"time (s)\"\npredict_first(\"a\", nil)\nessay(\"x\", \"y\")\n");
     EXPECT_EQ(without_solutions(function + calls, "a.lua", "fr"),
-              "local axis = \"temps (s)\"\nguess(\"b\", nil)\nessay(\"x\", \"y\")\n");
+              "local axis = \"temps (s)\"\npredict_first(\"b\", nil)\nessay(\"x\", \"y\")\n");
     EXPECT_EQ(without_solutions(calls), calls) << "another function of this name";
 }
 

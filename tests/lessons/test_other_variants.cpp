@@ -14,7 +14,7 @@
 #include "support/lesson_list.h"
 
 namespace dynlab::test {
-namespace test_other_specimens {
+namespace test_other_variants {
 
 constexpr const char* kLesson = "01_process_models";
 
@@ -26,7 +26,7 @@ PercentScript on_variant(int number) {
     const std::string seed = std::to_string(number);
     std::string script = read_file(file);
     EXPECT_TRUE(std::regex_search(script, loaded) && std::regex_search(script, repeated));
-    script = std::regex_replace(script, loaded, "rig(\"$1\", {specimen = " + seed + ", seed = " + seed + "})");
+    script = std::regex_replace(script, loaded, "plant(\"$1\", {variant = " + seed + ", seed = " + seed + "})");
     return parse_percent_script(std::regex_replace(script, repeated, "\nlocal runs = 2\n"), file);
 }
 
@@ -48,11 +48,11 @@ void expect_on_paper(const RunRecord& run, const std::string& name, double noise
     EXPECT_LE(*highest, paper.y_range->second) << name;
 }
 
-TEST(other_specimens, carry_lesson_1_to_its_end_and_keep_its_words_true) {
+TEST(other_variants, carry_lesson_1_to_its_end_and_keep_its_words_true) {
     const TemporaryFolder out;
     GnuplotRenderer renderer;
     for (int number = 1; number <= 60; ++number) {
-        SCOPED_TRACE("specimen " + std::to_string(number));
+        SCOPED_TRACE("variant " + std::to_string(number));
         RunOptions options;
         options.script_folder = lesson_folder(kLesson);
         options.out_folder = out.path();
@@ -75,5 +75,5 @@ TEST(other_specimens, carry_lesson_1_to_its_end_and_keep_its_words_true) {
     }
 }
 
-}  // namespace test_other_specimens
+}  // namespace test_other_variants
 }  // namespace dynlab::test
