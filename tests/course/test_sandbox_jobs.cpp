@@ -75,7 +75,7 @@ TEST(sandbox_jobs, come_back) {
     EXPECT_EQ(back.only, 1);
     EXPECT_EQ(back.files.at(0).source, "check{id = 'a'}");
     EXPECT_TRUE(back.files.at(0).visible);
-    EXPECT_EQ(back.submissions.at(0).specimens.at("hidden").at("crane"), 4'000'000'001u);
+    EXPECT_EQ(back.submissions.at(0).variants.at("hidden").at("crane"), 4'000'000'001u);
     EXPECT_EQ(back.submissions.at(0).work.findings.at(0).severity, Severity::kHint);
     EXPECT_EQ(back.submissions.at(0).work.runs.at("main").error, Message("{}:{}: no", "analysis.lua", 3));
     EXPECT_THAT(back.submissions.at(0).work.runs.at("main").figures, ElementsAre("raw", "fit"));

@@ -131,7 +131,7 @@ class secret_records_box : public ::testing::Test {
                "job=$(tr -d '\\000')\n"
                "case $2 in\n"
                "checks)\n"
-               "  case $job in *specimens*)\n"
+               "  case $job in *variants*)\n"
                "    echo 'sample 30.78' >&2\n"
                "    exit 1 ;;\n"
                "  esac\n"

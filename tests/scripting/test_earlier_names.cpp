@@ -43,7 +43,7 @@ TEST(earlier_names, give_the_same_results_and_print_each_present_name_once) {
 }
 
 TEST(earlier_names, are_free_for_variables) {
-    EXPECT_EQ(printed("rig = 5\nlocal guess = 6\nprint(rig, guess)"), "5 6\n");
+    EXPECT_EQ(printed("rig = 5\nlocal guess = 6\nprint(rig, guess)"), "5\t6\n");
 }
 
 TEST(earlier_names, of_functions_fail_with_the_place_of_the_call) {

@@ -78,7 +78,7 @@ const Planted kPlanted[] = {
     {"histogram({1, 2, 3}, {bin = 3})\n                      ^", "unknown-option", "did you mean 'bins'"},
     {"dynlab.histogram({1, 2, 3}, {number = 3})\n                             ^", "unknown-option", "the options are"},
     {"load(\"crane\", {skipp = 3})\n               ^", "unknown-option", "did you mean 'skip'"},
-    {"plant(\"crane\", {sed = 3})\n              ^", "unknown-option", "did you mean 'seed'"},
+    {"plant(\"crane\", {sed = 3})\n                ^", "unknown-option", "did you mean 'seed'"},
     {"figure{titel = \"t\", panels = {}}\n       ^", "unknown-option", "did you mean 'title'"},
     {"montecarlo{runns = 3}\n           ^", "unknown-option", "did you mean 'runs'"},
     // text that is no Lua

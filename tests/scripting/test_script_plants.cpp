@@ -67,7 +67,7 @@ TEST(script_plants, stand_in_the_help_pages) {
                       truth_page = page_text(*find_help_page("true_model"), find_function("true_model"));
     for (const Plant& plant : plant_catalog()) {
         EXPECT_NE(point_of(plant_page, "\n- `name`:").find('"' + plant.name + '"'), std::string::npos) << plant.name;
-        const std::string experiments = point_of(plant_page, "\n- `" + plant.name + "`: ");
+        const std::string experiments = rows_of(plant_page, plant.name);
         for (const std::string& experiment : plant.experiments)
             EXPECT_NE(experiments.find('`' + experiment + '`'), std::string::npos) << plant.name << ' ' << experiment;
         const std::string truth = rows_of(truth_page, plant.name);
