@@ -49,6 +49,7 @@ const std::vector<Alias>& course_aliases() {
         {{"override"}, {"mark"}},
         {{"oral", "sheet"}, {"scores", "--sheet"}},
         {{"key"}, {"verify", "--key"}},
+        {{"findings"}, {"issues"}},
     };
     return all;
 }

@@ -97,7 +97,7 @@ TEST(reviews, that_contain_a_name_are_reported_at_receipt) {
     };
     EXPECT_THAT(submit_file("fair.pdf", 1), AllOf(HasSubstr("on time"), Not(HasSubstr("broken"))));
     EXPECT_THAT(submit_file("loose.pdf", 2), HasSubstr("rules violated: a name was found"));
-    const ChildResult findings = course.course({"findings", "group-01", "--stage", "review"});
+    const ChildResult findings = course.course({"issues", "group-01", "--stage", "review"});
     EXPECT_EQ(findings.exit_code, 1);
     EXPECT_THAT(findings.output,
                 AllOf(ContainsRegex("reviews: review of report-[0-9]+ v1, received Tue 2026-03-03 10:00"),
@@ -118,16 +118,16 @@ TEST(reviews, findings_of_stored_versions_are_shown_as_check_shows_them) {
     bench.submit_file("group-01.pdf", small_pdf("two"), "2026-03-01 11:00");
     bench.submit_file("group-02.pdf", small_pdf("unseen"), "2026-03-01 11:00", {"--no-checks"});
     const std::string checked = bench.bench().dynlab({"check", "group-01.pdf", "--template", "lab_report"}).output;
-    const ChildResult newest = bench.course({"findings", "group-01"});
+    const ChildResult newest = bench.course({"issues", "group-01"});
     EXPECT_EQ(newest.exit_code, 1);
     EXPECT_THAT(newest.output, HasSubstr("group-01, first version: report v2, received Sun 2026-03-01 11:00\n"));
     EXPECT_THAT(newest.output, HasSubstr(checked.substr(checked.find("Rules violated"))));
     EXPECT_THAT(newest.output, Not(HasSubstr("placeholder-left")));
-    EXPECT_THAT(bench.course({"findings", "group-01", "--version", "1"}).output, HasSubstr("placeholder-left"));
-    EXPECT_THAT(bench.course({"findings", "group-02"}).output, HasSubstr("not checked"));
-    EXPECT_THAT(bench.course({"findings", "group-01", "--stage", "final"}).error_output,
+    EXPECT_THAT(bench.course({"issues", "group-01", "--version", "1"}).output, HasSubstr("placeholder-left"));
+    EXPECT_THAT(bench.course({"issues", "group-02"}).output, HasSubstr("not checked"));
+    EXPECT_THAT(bench.course({"issues", "group-01", "--stage", "final"}).error_output,
                 HasSubstr("group-01 has submitted no final version for crane"));
-    EXPECT_THAT(bench.course({"findings", "gruop-01"}).error_output, HasSubstr("group-01"));
+    EXPECT_THAT(bench.course({"issues", "gruop-01"}).error_output, HasSubstr("group-01"));
 }
 
 // oracle: the roster's own entries

@@ -81,7 +81,7 @@ TEST(unusual_submissions, a_version_that_was_there_before_and_a_review_as_a_repo
     EXPECT_THAT(reported(bench.submit_file("group-01.pdf", small_pdf("1"), "2026-03-01 18:00", {"--no-checks"})),
                 ContainsRegex("v3 +on time +the same file as v1 of Sun 2026-03-01 10:00"));
     reported(bench.course({"review", "assign", "--at", "2026-03-02 10:00"}));
-    EXPECT_THAT(reported(bench.course({"findings", "group-01"})), Not(HasSubstr("No copy")));
+    EXPECT_THAT(reported(bench.course({"issues", "group-01"})), Not(HasSubstr("No copy")));
     bench.bench().write("review.pdf", small_pdf("a review"));
     reported(bench.course(
         {"review", "collect", "review.pdf", "--from", "group-02", "--at", "2026-03-03 10:00", "--no-checks"}));
@@ -125,11 +125,11 @@ TEST(unusual_submissions, reports_are_held_against_what_their_lesson_asks_for) {
     EXPECT_THAT(bench.course({"assignment", "lines", "--lesson", "22", "--reason", "a slip"}).error_output,
                 HasSubstr("unknown lesson or folder '22'"));
     reported(bench.submit_file("group-01.pdf", small_pdf("The winning times"), kInTime, {"--assignment", "lines"}));
-    EXPECT_THAT(bench.course({"findings", "group-01", "--assignment", "lines"}).output,
+    EXPECT_THAT(bench.course({"issues", "group-01", "--assignment", "lines"}).output,
                 AllOf(HasSubstr("checked as lesson"), Not(HasSubstr("lab_report"))));
     for (const char* name : {"labs", "crane"}) {  // one of a lesson that asks for it, one without a lesson
         reported(bench.submit_file("group-01.pdf", small_pdf("The winning times"), kInTime, {"--assignment", name}));
-        EXPECT_THAT(reported(bench.course({"findings", "group-01", "--assignment", name}), 1),
+        EXPECT_THAT(reported(bench.course({"issues", "group-01", "--assignment", name}), 1),
                     HasSubstr("Checked as lab_report"));
     }
 }
@@ -140,9 +140,9 @@ TEST(unusual_submissions, the_findings_of_a_report_state_that_its_copy_did_not_g
     reported(bench.submit_file("group-02.pdf", small_pdf("A report"), kInTime));
     reported(bench.course({"review", "assign", "--at", "2026-03-01 13:00"}));
     EXPECT_THAT(reported(bench.course({"review", "send", "--at", "2026-03-01 13:30"}), 1), HasSubstr("1 stopped"));
-    EXPECT_THAT(reported(bench.course({"findings", "group-01"}), 1),
+    EXPECT_THAT(reported(bench.course({"issues", "group-01"}), 1),
                 HasSubstr("No copy of it was sent to others yet: run dynlab course review send crane to see why"));
-    EXPECT_THAT(reported(bench.course({"findings", "group-02"}), 1), Not(HasSubstr("No copy")));
+    EXPECT_THAT(reported(bench.course({"issues", "group-02"}), 1), Not(HasSubstr("No copy")));
 }
 
 TEST(unusual_submissions, what_canvas_calls_late_is_reported_where_the_time_does_not_say_so) {

@@ -373,7 +373,7 @@ void add_course(CLI::App& app, Action& action) {
     add_drop(*course, where, action);
     add_assignment_command(*course, where, action);
     add_receive_commands(*course, where, action);
-    add_findings_command(*course, where, action);
+    add_issues_command(*course, where, action);
     add_peer_commands(*course, where, action);
     add_changes(*course, where, action);
     add_remind_command(*course, where, action);

@@ -56,7 +56,7 @@ void add_correction_commands(CLI::App& course, CourseArguments& where, Action& a
 void add_remind_command(CLI::App& course, CourseArguments& where, Action& action);
 
 /// findings.
-void add_findings_command(CLI::App& course, CourseArguments& where, Action& action);
+void add_issues_command(CLI::App& course, CourseArguments& where, Action& action);
 
 /// grade, mark.
 void add_grade_commands(CLI::App& course, CourseArguments& where, Action& action);

@@ -12,7 +12,7 @@
 namespace dynlab::inline cli {
 namespace {
 
-struct FindingsArguments {
+struct IssuesArguments {
     std::string group, assignment, stage = "first";
     std::optional<std::int64_t> version;
 };
@@ -24,7 +24,7 @@ std::string stage_in_words(const std::string& stage) {
 /// Reports whether anonymized copies for others are missing. The anonymity check runs when such copies are made, so the
 /// findings do not contain its results.
 void report_missing_copies(Course& course, const Assignment& assignment, const Group& group,
-                           const FindingsArguments& args) {
+                           const IssuesArguments& args) {
     if (!assignment.is_report() || args.stage == "final" || args.version) return;
     const bool reviews = args.stage == "review";
     bool others = false, missing = false;
@@ -41,7 +41,7 @@ void report_missing_copies(Course& course, const Assignment& assignment, const G
                                  assignment.name);
 }
 
-int show_findings(const CourseArguments& where, const FindingsArguments& args) {
+int show_issues(const CourseArguments& where, const IssuesArguments& args) {
     Course course(where.folder);
     const Assignment assignment = assignment_named(course, args.assignment);
     const Group group = group_named(course, args.group);
@@ -65,9 +65,9 @@ int show_findings(const CourseArguments& where, const FindingsArguments& args) {
 
 }  // namespace
 
-void add_findings_command(CLI::App& course, CourseArguments& where, Action& action) {
-    auto args = std::make_shared<FindingsArguments>();
-    CLI::App* command = course.add_subcommand("findings", "Show the issues found in a group's files at their receipt");
+void add_issues_command(CLI::App& course, CourseArguments& where, Action& action) {
+    auto args = std::make_shared<IssuesArguments>();
+    CLI::App* command = course.add_subcommand("issues", "Show the issues found in a group's files at their receipt");
     command->add_option("GROUP", args->group)->required();
     command->add_option("--assignment", args->assignment, "Assignment. Required if there are several.")
         ->type_name("NAME");
@@ -78,9 +78,9 @@ void add_findings_command(CLI::App& course, CourseArguments& where, Action& acti
     command->add_option("--version", args->version, "Number of an earlier submission. Default: the newest.")
         ->type_name("N");
     command->footer(
-        "The output has the format of dynlab check.\nExample:  dynlab course findings group-07 --stage review\nExit "
+        "The output has the format of dynlab check.\nExample:  dynlab course issues group-07 --stage review\nExit "
         "codes: 0 no rule is violated, 1 a rule is violated, or nothing was received.");
-    command->callback([&where, args, &action] { action = [&where, args] { return show_findings(where, *args); }; });
+    command->callback([&where, args, &action] { action = [&where, args] { return show_issues(where, *args); }; });
 }
 
 }  // namespace dynlab::inline cli
