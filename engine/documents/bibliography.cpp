@@ -139,9 +139,10 @@ Message fault_of_bibliography_name(const std::string& name) {
 
 Message why_no_bibliography(const fs::path& file) {
     if (!is_inside(file, folder_around(file)))
-        return Message("the bibliography is outside the folder of this file; copy it into the folder");
+        return Message(
+            "the bibliography is outside the folder of the document; copy the bibliography file into that folder");
     if (!fs::is_regular_file(file))
-        return Message("the bibliography file is missing; add the file, or remove \"bibliography:\"");
+        return Message("the bibliography file is missing; add the file, or remove \"bibliography:\" from the header");
     if (fs::file_size(file) > kMaxByteCount)
         return Message("the bibliography is larger than 1 MB; keep only the works that the document cites");
     return {};

@@ -61,13 +61,19 @@ Message wrong_in_diagram(const std::string& code, const std::string& first, cons
     if (code == "kind") return Message("unknown kind \"{}\"; the kinds are block, sum, signal and branch", first);
     if (code == "place") return Message("column and row must be whole numbers from 1 to {}", first);
     if (code == "node-twice") return Message("the node {} is defined twice", first);
-    if (code == "most-nodes") return Message("a diagram can have at most {} nodes", first);
+    if (code == "most-nodes") return Message("a diagram can have at most {} nodes; split the diagram", first);
     if (code == "sign") return Message("between two nodes, write ->, -| or |-, not {}", first);
-    if (code == "no-node") return Message("no node {} is defined above this line", first);
+    if (code == "no-node")
+        return Message("the node {} is not defined above this line; define nodes before arrows", first);
     if (code == "arrow") return Message("an arrow must connect two nodes, as in u -> G");
     if (code == "not-straight")
-        return Message("{} and {} are neither in the same row nor in the same column; write -| or |-", first, second);
-    return Message("write names, numbers and arrows first, then a colon and the label");
+        return Message(
+            "the arrow -> requires {} and {} in different cells of one row or one column; "
+            "move a node, or write -| or |-",
+            first, second);
+    return Message(
+        "formulas and formatted text are allowed only in labels; "
+        "write names, numbers and arrows first, then a colon and the label");
 }
 
 /// What report_templates/filters/choice.lua reports.
@@ -78,8 +84,8 @@ Message wrong_in_choice(const std::string& code) {
             "option");
     if (code == "option")
         return Message(
-            "each option must start with [x] or [ ]; a separate, indented paragraph explains why the option is correct "
-            "or wrong");
+            "each option must start with [x] or [ ], and a separate, indented paragraph must explain why the option is "
+            "correct or wrong");
     return Message("a choice needs at least two options, including a correct one");
 }
 
@@ -118,7 +124,7 @@ class Sentences {
         if (code == "unknown-citation") {
             const auto near = nearest_word(first, split_at(second, ' '));
             return near ? Message("the bibliography has no entry \"{}\"; did you mean \"{}\"?", first, *near)
-                        : Message("the bibliography has no entry \"{}\"", first);
+                        : Message("the bibliography has no entry \"{}\"; add the entry, or correct the key", first);
         }
         if (code == "slot-in-formula")
             return Message(
@@ -150,7 +156,8 @@ class Sentences {
         if (code == "link")
             return Message("the link \"{}\" must start with https://, http://, mailto: or # (a section's name)", first);
         if (code == "attribute")
-            return Message("the attribute \"{}\" is not supported on {}", first, element_named(second, third));
+            return Message("the attribute \"{}\" is not supported on {}; remove the attribute", first,
+                           element_named(second, third));
         return of_block(code, fields[2], first, second, third);
     }
 

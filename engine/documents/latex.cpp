@@ -278,8 +278,8 @@ class LatexRun {
             is_sandboxed() ? run_sandboxed(command(draft)) : run_child(command(draft), engine_.package);
         note("latex pass " + std::to_string(pass), start);
         if (run.timed_out)
-            throw LatexRefusal(Message("{} did not finish within two minutes and was stopped; shorten the document, or "
-                                       "check the text for a macro that calls itself",
+            throw LatexRefusal(Message("{} exceeded the limit of two minutes of processor time and was stopped; "
+                                       "shorten the document, or check the text for a macro that calls itself",
                                        engine_.program),
                                0, "");
         if (run.exit_code == 128 + SIGXFSZ)
@@ -355,9 +355,9 @@ LatexDocument run_latex(const LatexJob& job) {
             const std::size_t known = result.replaced.size();
             result.replaced.insert(missing.letters.begin(), missing.letters.end());
             if (result.replaced.size() == known)
-                throw LatexRefusal(
-                    Message("no font has the letter {}: remove it from the text", code_of(*missing.letters.begin())), 0,
-                    "");
+                throw LatexRefusal(Message("no font has the letter {}; remove the letter from the text",
+                                           code_of(*missing.letters.begin())),
+                                   0, "");
         }
     }
 }

@@ -91,7 +91,7 @@ void finish_format(ChildProcess& tex, const fs::path& folder) {
     std::string complaint;
     const Message reason = RE2::PartialMatch(run.output, kError, &complaint)
                                ? Message::verbatim(complaint)
-                               : Message("pdflatex ended with code {}", run.exit_code);
+                               : Message("pdflatex stopped with exit code {}", run.exit_code);
     throw EnvironmentError("the layout of documents (report_templates/latex) cannot be prepared: {}", reason);
 }
 

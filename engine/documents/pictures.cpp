@@ -64,7 +64,8 @@ std::vector<PlacedPicture> find_picture_files(const std::vector<UsedPicture>& pi
         else if (path.is_absolute() || !is_inside(file, folder))
             complaints.add(
                 where,
-                Message("the picture \"{}\" is outside the folder of this file; copy it into the folder", shown));
+                Message("the picture \"{}\" is outside the folder of this file; copy the picture into that folder",
+                        shown));
         else if (!fs::is_regular_file(file))
             complaints.add(where, Message("the picture \"{}\" is not in the folder of this file; add the file, or "
                                           "correct the name in the text",

@@ -146,9 +146,8 @@ std::size_t read_script_header(const std::vector<std::string>& lines, const std:
             return i + 1;
         }
         if (!lines[i].starts_with("--"))
-            throw DocumentError(
-                Place{file, number},
-                Message("the script header is not closed: a line \"-- ---\" is missing before this line"));
+            throw DocumentError(Place{file, number},
+                                Message("the script header is not closed; add a line \"-- ---\" before this line"));
         std::string content = lines[i].substr(2);
         if (content.starts_with(' ')) content.erase(0, 1);
         try {
@@ -160,7 +159,7 @@ std::size_t read_script_header(const std::vector<std::string>& lines, const std:
         }
     }
     throw DocumentError(Place{file, static_cast<int>(first) + 1},
-                        Message("the script header is not closed: a line \"-- ---\" is missing after it"));
+                        Message("the script header is not closed; add a line \"-- ---\" after the header"));
 }
 
 std::string language_of_script(std::string_view source) {

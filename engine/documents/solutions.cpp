@@ -94,7 +94,10 @@ std::string without_solutions(const std::string& source, const std::filesystem::
         }
         switch (solution_line(line, name, number)) {
             case SolutionLine::kBegin:
-                if (begun) fail(number, Message("a solution starts inside the solution that starts on line {}", begun));
+                if (begun)
+                    fail(number, Message("a solution starts inside the solution that starts on line {}; close the "
+                                         "first solution with \"-- END SOLUTION\"",
+                                         begun));
                 begun = number;
                 if (hidden || (asked && !in_text)) break;
                 asked = !in_text;
@@ -109,7 +112,9 @@ std::string without_solutions(const std::string& source, const std::filesystem::
                 begun = 0;
                 break;
             case SolutionLine::kStarter:
-                if (!begun) fail(number, Message("\"-- STARTER:\" is outside a solution"));
+                if (!begun)
+                    fail(number, Message("\"-- STARTER:\" is outside a solution; move the line between \"-- BEGIN "
+                                         "SOLUTION\" and \"-- END SOLUTION\""));
                 asked = false;
                 result += starter_text(line, in_text);
                 break;

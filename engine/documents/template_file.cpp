@@ -71,7 +71,7 @@ void read_metadata(const std::vector<std::string>& lines, std::size_t begin, std
 std::size_t end_of_metadata(const std::vector<std::string>& lines, const std::filesystem::path& file) {
     for (std::size_t i = 1; i < lines.size(); ++i)
         if (trimmed(lines[i]) == "---" || trimmed(lines[i]) == "...") return i;
-    throw DocumentError({file, 1}, Message("the header is not closed: a line \"---\" is missing after it"));
+    throw DocumentError({file, 1}, Message("the header is not closed; add a line \"---\" after the header"));
 }
 
 bool opens_cells(const std::string& line) {
@@ -155,7 +155,8 @@ MarkdownText with_cells(const TemplateFile& source, const MarkdownText& cells) {
             result.append(lines[i] + "\n", from.file, from.line);
             continue;
         }
-        if (is_placed) throw DocumentError(place(i), Message("the block ::: {.cells} occurs twice"));
+        if (is_placed)
+            throw DocumentError(place(i), Message("the block ::: {.cells} occurs twice; remove one of the blocks"));
         is_placed = true;
         std::size_t end = i + 1;
         while (end < lines.size() && is_blank(lines[end])) ++end;

@@ -259,7 +259,7 @@ fs::path Cache::commit(const fs::path& prepared, const std::string& name) const 
     if (error && fs::is_directory(folder)) {
         fs::remove_all(prepared, error);
     } else if (error) {
-        throw EnvironmentError("cannot store {}: {}", folder.string(), error.message());
+        throw EnvironmentError("cannot store {} in the cache: {}", folder.string(), error.message());
     }
     mark_as_used(folder);
     add_growth(bytes_in(folder));

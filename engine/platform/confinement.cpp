@@ -35,7 +35,7 @@ void refuse_calls(scmp_filter_ctx filter, std::initializer_list<int> calls) {
 
 void filter_system_calls() {
     const std::unique_ptr<void, void (*)(scmp_filter_ctx)> filter(::seccomp_init(SCMP_ACT_ALLOW), ::seccomp_release);
-    if (!filter) throw EnvironmentError("the system calls of a script cannot be filtered");
+    if (!filter) throw EnvironmentError("cannot create the system call filter (seccomp) of a script");
     refuse_calls(filter.get(), {SCMP_SYS(execve), SCMP_SYS(execveat), SCMP_SYS(fork), SCMP_SYS(vfork)});
     // clone makes threads or processes; clone3 hides which in memory, and the C library then falls back on clone.
     expect_rule_added(::seccomp_rule_add(filter.get(), SCMP_ACT_ERRNO(EPERM), SCMP_SYS(clone), 1,
@@ -121,7 +121,7 @@ void confine_to_memory() {
     { const Utf8Locale read_from_its_file; }
     const std::unique_ptr<void, void (*)(scmp_filter_ctx)> filter(::seccomp_init(SCMP_ACT_ERRNO(EPERM)),
                                                                   ::seccomp_release);
-    if (!filter) throw EnvironmentError("the system calls of a process cannot be filtered");
+    if (!filter) throw EnvironmentError("cannot create the system call filter (seccomp) of a process");
     allow(filter.get(), {SCMP_SYS(brk), SCMP_SYS(mmap), SCMP_SYS(munmap), SCMP_SYS(mremap), SCMP_SYS(mprotect),
                          SCMP_SYS(madvise), SCMP_SYS(futex), SCMP_SYS(sched_yield)});
     allow(filter.get(),

@@ -59,7 +59,7 @@ std::optional<Message> obstacle_to(Isolation level) {
     if (tried.exit_code == 0) return {};
     const std::string reason = tried.error_output.substr(0, tried.error_output.find('\n'));
     return Message(
-        "full isolation is not available: bubblewrap reports \"{}\". Allow user namespaces (sysctl "
+        "full isolation is not available: bubblewrap reports \"{}\". Allow user namespaces (sudo sysctl "
         "kernel.unprivileged_userns_clone=1), or use --isolation process",
         reason);
 }

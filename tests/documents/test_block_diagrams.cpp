@@ -54,14 +54,14 @@ TEST_F(block_diagrams, mistakes_are_reported_with_their_line) {
                                          {"- r = block 1: $r$\n", "a node must have the form NAME = KIND COLUMN ROW"},
                                          {"- r = block 0 1: $r$\n", "whole numbers from 1 to 12"},
                                          {"- r = block 99 1: $r$\n", "whole numbers from 1 to 12"},
-                                         {"- r -> S\n", "no node r is defined above this line"}}) {
+                                         {"- r -> S\n", "the node r is not defined above this line"}}) {
         const std::string message = refusal(diagram(list));
         EXPECT_THAT(message, HasSubstr("report.md:4: ")) << list;
         EXPECT_THAT(message, HasSubstr(reported)) << list;
     }
     EXPECT_THAT(refusal(diagram("- a = sum 1 1\n- b = sum 2 2\n- a -> b\n")),
-                HasSubstr("report.md:6: in the block diagram \"a -> b\": a and b are neither in the same row nor in "
-                          "the same column"));
+                HasSubstr("report.md:6: in the block diagram \"a -> b\": the arrow -> requires a and b in "
+                          "different cells of one row or one column"));
     EXPECT_THAT(refusal(diagram("Words.\n")), HasSubstr("must be a list of nodes and arrows"));
 }
 

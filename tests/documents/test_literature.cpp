@@ -137,7 +137,7 @@ TEST_F(literature, a_link_to_a_file_outside_the_folder_is_refused) {
     std::ofstream(elsewhere.path() / "outside.bib") << "@book{secret2020, author={Outsider, O.}, year={2020}}\n";
     std::filesystem::create_symlink(elsewhere.path() / "outside.bib", file("link.bib"));
     EXPECT_THAT(refusal("---\nbibliography: link.bib\n---\nAs in [@secret2020].\n"),
-                HasSubstr("link.bib: the bibliography is outside the folder of this file"));
+                HasSubstr("link.bib: the bibliography is outside the folder of the document"));
     std::filesystem::create_symlink("books.bib", file("same.bib"));
     EXPECT_EQ(refusal("---\nbibliography: same.bib\n---\nAs in [@ljung1999].\n"), "");
 }

@@ -178,7 +178,7 @@ TEST(program_errors, a_bibliography_that_is_a_link_to_elsewhere_is_not_packed) {
     std::filesystem::create_symlink("../outside.bib", bench.path("mine/link.bib"));
     for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
              {"pack", "mine/analysis.lua"}, {"weave", "mine/analysis.lua", "-o", "mine.html"}})
-        expect_failure(bench.dynlab(words), 1, "link.bib: the bibliography is outside the folder of this file");
+        expect_failure(bench.dynlab(words), 1, "link.bib: the bibliography is outside the folder of the document");
     EXPECT_THAT(bench.files(), ElementsAre("mine", "outside.bib"));
 }
 

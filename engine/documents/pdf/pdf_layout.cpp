@@ -85,7 +85,8 @@ PdfWord word_of(const PdfDocument::Box& box) {
 
 PdfLayout layout_of(const PdfDocument* document, const PdfLimits& limits) {
     if (!document) refuse(PdfFault::kDamaged, Message("The file is damaged: it contains no pages."));
-    if (document->is_locked()) refuse(PdfFault::kEncrypted, Message("The file is encrypted: it needs a password."));
+    if (document->is_locked())
+        refuse(PdfFault::kEncrypted, Message("The file is encrypted: save the PDF without a password."));
     const int count = document->pages();
     if (count < 1) refuse(PdfFault::kDamaged, Message("The file is damaged: it contains no pages."));
     if (count > limits.pages) {

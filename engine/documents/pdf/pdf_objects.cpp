@@ -66,7 +66,8 @@ std::string work_on_pdf_objects(const std::filesystem::path& file, const PdfObje
             throw;
         } catch (const QPDFExc& error) {
             if (error.getErrorCode() == qpdf_e_password)
-                throw PdfRefusal(PdfFault::kEncrypted, Message("The file is encrypted: it needs a password."));
+                throw PdfRefusal(PdfFault::kEncrypted,
+                                 Message("The file is encrypted: save the PDF without a password."));
         } catch (const std::exception&) {
             // What libqpdf says of objects that are not of the kind they should be.
         }

@@ -43,7 +43,8 @@ std::string common_header(const std::string& name, const std::string& content) {
 }
 
 [[noreturn]] void refuse_size() {
-    throw EnvironmentError("a zip file can contain at most {} files and {} MB", kMaxEntries, kMaxZipBytes >> 20);
+    throw EnvironmentError("a zip file can contain at most {} files and {} MB; remove files that are not needed",
+                           kMaxEntries, kMaxZipBytes >> 20);
 }
 
 }  // namespace

@@ -33,7 +33,9 @@ fs::path new_folder_in(const fs::path& parent, std::error_code& error) {
 void make_complete_folder(const fs::path& folder, const std::function<void(const fs::path&)>& fill) {
     const auto refuse_if_taken = [&folder] {
         if (fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder)))
-            throw EnvironmentError("{} already exists, and nothing was changed; give another name", folder.string());
+            throw EnvironmentError(
+                "{} already exists and is not an empty folder. Nothing was changed; give another name",
+                folder.string());
     };
     refuse_if_taken();
     const fs::path target = fs::absolute(folder).lexically_normal();
