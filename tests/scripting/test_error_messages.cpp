@@ -95,7 +95,7 @@ TEST(error_messages, that_the_script_made_or_changed_are_verbatim) {
     EXPECT_EQ(own.line, 2);
     EXPECT_EQ(error_in("pcall(zeros, -1)\nerror('other')").message, Message::verbatim("other"));
     EXPECT_EQ(error_in("error({})").message.id(), "{}");
-    EXPECT_EQ(error_in("error()").message, Message("error() was called without a message"));
+    EXPECT_EQ(error_in("error()").message, Message("error() was called without a message; write error(\"message\")"));
 }
 
 TEST(error_messages, of_a_function_of_the_script_are_quoted_with_their_place) {

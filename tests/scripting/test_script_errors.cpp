@@ -118,7 +118,7 @@ TEST(script_errors, put_what_lua_says_into_plain_words) {
         {"local function f() return 1 + f() end\nf()",
          "lesson.lua:1: infinite recursion (stack overflow): a function calls itself, directly or through other "
          "functions, and never stops"},
-        {"error()", "lesson.lua:1: error() was called without a message"},
+        {"error()", "lesson.lua:1: error() was called without a message; write error(\"message\")"},
         {"error('my own words')", "lesson.lua:1: my own words"},
         {"error({code = 2})", "lesson.lua:1: {code = 2}"},
     });
@@ -126,7 +126,9 @@ TEST(script_errors, put_what_lua_says_into_plain_words) {
 
 TEST(script_errors, hint_at_lua_where_a_line_is_matlab) {
     check({
-        {"local y = x'", "lesson.lua:1: unterminated string; the transpose is A:t(); a vector is already a column"},
+        {"local y = x'",
+         "lesson.lua:1: the string is not closed by a quotation mark; the transpose is A:t(); a vector is already a "
+         "column"},
         {"local z = x.*y",
          "lesson.lua:1: expected a name before '*'; write x*y for vectors and A:times(B) for matrices, instead of x.*y "
          "and A.*B"},
@@ -258,14 +260,15 @@ TEST(script_errors, name_argument_wanted_and_given) {
         {"sum('x')", "lesson.lua:1: sum: argument 1 (v) must be a vector, but the string \"x\" was given"},
         {"sum({1, 'a'})",
          "lesson.lua:1: sum: argument 1 (v) must be a vector of numbers, but its element 2 is the string \"a\""},
-        {"mean({})", "lesson.lua:1: mean: argument 1 (v) has no elements"},
-        {"dot({1}, {1, 2})", "lesson.lua:1: dot: a has 1 value, but b has 2"},
+        {"mean({})", "lesson.lua:1: mean: argument 1 (v) must have at least one element, but it is empty"},
+        {"dot({1}, {1, 2})",
+         "lesson.lua:1: dot: a and b must have the same number of elements, but a has 1 value and b has 2"},
         {"rng(-1)", "lesson.lua:1: rng: the seed must be a whole number from 0 to 4294967295, but -1 was given"},
         {"sqrt(-2)", "lesson.lua:1: sqrt: the function is undefined for the negative number -2"},
         {"norm({1}, {2})", "lesson.lua:1: norm: accepts at most 1 argument, but 2 were given"},
         {"toc(1)", "lesson.lua:1: toc: accepts no arguments, but 1 was given"},
         {"regression_plot({}, {}, polyfit_report({1, 2, 3}, {1, 2, 4}, 1))",
-         "lesson.lua:1: regression_plot: argument 1 (x) has no elements"},
+         "lesson.lua:1: regression_plot: argument 1 (x) must have at least one element, but it is empty"},
         {"lqr(matrix{{0, 0/0}, {0, 0}}, matrix{{0}, {1}}, eye(2), eye(1))",
          "lesson.lua:1: lqr: A contains a value that is not finite"},
         {"lqr(matrix{{0, 1}}, matrix{{0}, {1}}, eye(2), eye(1))",

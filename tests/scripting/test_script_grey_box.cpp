@@ -129,7 +129,7 @@ TEST(script_grey_box, refuses_in_words) {  // oracle: the mistakes written here
                 HasSubstr("p has no parameter a3; the parameters are a1, a2, b"));
     EXPECT_THAT(refusal("idgrey(function(t, x, u, p) return {x.v, x.q} end, names, {states = {'y', 'v'}})"),
                 HasSubstr("x has no state q; the states are y, v"));
-    EXPECT_THAT(refusal("idgrey(f, {a1 = {1, mn = 0}}, {states = 2})"), HasSubstr("'mn' is not valid"));
+    EXPECT_THAT(refusal("idgrey(f, {a1 = {1, mn = 0}}, {states = 2})"), HasSubstr("'mn' is not one of these fields"));
     EXPECT_THAT(refusal("idgrey(f, {a1 = {3, max = 2}, a2 = 1, b = 1}, {states = 2})"),
                 HasSubstr("initial value of the parameter a1 is 3, which is outside the bounds -Inf and 2"));
     EXPECT_THAT(refusal("idgrey(function(t, x, u, p) return {p.a1*x[1] + u}, {x[1]} end, {a1 = 1}, {states = 1})"),

@@ -99,7 +99,8 @@ TEST_F(script_load, does_as_the_options_say) {
         "[0 60 120]\t60\t[5 6 7]\tm\n");
     EXPECT_THAT(complains("load(\"a.dat\", {skip = 1, time = \"c3\"})"), HasSubstr("'c3' is not a numeric column"));
     EXPECT_THAT(complains("load(\"a.dat\", {delimiter = \"--\"})"), HasSubstr("must be one character"));
-    EXPECT_THAT(complains("load(\"a.dat\", {units = {\"V\"}})"), HasSubstr("must be a table such as"));
+    EXPECT_THAT(complains("load(\"a.dat\", {units = {\"V\"}})"),
+                HasSubstr("must be a table of column names and their units, such as"));
     EXPECT_THAT(complains("load(\"a.dat\", {unit = {}})"), HasSubstr("'unit'"));
     write_mat_file(folder_.path() / "b.mat", {{"y", {Vector{{1, 2}}}}});
     EXPECT_THAT(complains("load(\"b.mat\", {skip = 1})"),

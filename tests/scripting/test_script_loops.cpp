@@ -102,7 +102,7 @@ TEST(script_loops, studies_of_loops) {
         "true\ttrue\ttrue\tnil\n");
     EXPECT_THAT(
         error_of(kLoop + "montecarlo{system = G0, controller = C, input = r, Ts = Ts, sigma = 1, estimators = {}}"),
-        HasSubstr("omit 'input'"));
+        HasSubstr("omit option 'input'"));
 }
 
 TEST(script_loops, recursive_methods_report_their_history) {

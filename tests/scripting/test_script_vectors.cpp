@@ -26,7 +26,8 @@ TEST(script_vectors, measure_matrices_by_columns) {
         "[12 9]\t[4 3]\t[3 2]\n[8 6]\t[3 2]\n[1 1]\t[1 3]\n[2 8]\t[2 0]\n");
     EXPECT_EQ(printed("print(median{5, 1, 3}, median{4, 1, 3, 2}, sum(gt({1, 5, 7}, 2)), sum(5), sum(zeros(0)))"),
               "3\t2.5\t2\t5\t0\n");
-    EXPECT_EQ(error_of("median{}"), "lesson.lua:1: median: argument 1 (v) has no elements");
+    EXPECT_EQ(error_of("median{}"),
+              "lesson.lua:1: median: argument 1 (v) must have at least one element, but it is empty");
     EXPECT_EQ(
         error_of("std(matrix{{1, 2}})"),
         "lesson.lua:1: std: a standard deviation or a variance needs at least two values, but only one was given");
@@ -71,7 +72,8 @@ TEST(script_vectors, where_names_its_arguments_if_their_lengths_differ) {
     for (const char* c : {"vector{1, 1}", "gt({1, 1}, 0)"})
         EXPECT_EQ(error_of("where(" + std::string(c) + ", vector{1, 2, 3}, 0)"),
                   "lesson.lua:1: where: c has 2 values, but a has 3");
-    EXPECT_EQ(error_of("where(-1*vector{1, 1}, 0, vector{1})"), "lesson.lua:1: where: c has 2 values, but b has 1");
+    EXPECT_EQ(error_of("where(-1*vector{1, 1}, 0, vector{1})"),
+              "lesson.lua:1: where: all vectors must have the same number of elements, but c has 2 values and b has 1");
 }
 
 TEST(script_vectors, delays_are_written_as_exponentials) {
@@ -234,7 +236,8 @@ TEST(script_vectors, walk_tables_in_a_repeatable_order) {
 TEST(script_vectors, extremes_pass_over_what_is_not_a_number) {
     EXPECT_EQ(printed("print(max(vector{0/0, 1, 3})) print(max(vector{3, 0/0, 1})) print(min(vector{0/0, 2, 1}))"),
               "3\t3\n3\t1\n1\t3\n");
-    EXPECT_EQ(error_of("linspace(0, 1/0, 3)"), "lesson.lua:1: linspace: first and last must be finite numbers");
+    EXPECT_EQ(error_of("linspace(0, 1/0, 3)"),
+              "lesson.lua:1: linspace: first and last must be finite numbers, but they are 0 and Inf");
 }
 
 TEST(script_vectors, matrix_rows_of_vectors_and_numbers_are_joined) {  // oracle: by hand

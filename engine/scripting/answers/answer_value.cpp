@@ -69,7 +69,8 @@ class AnswerWriter {
     void count(Index numbers) {
         count_ += numbers;
         if (count_ > kMaxNumbers)
-            throw InvalidArgument("an answer can have at most {} numbers or characters", kMaxNumbers);
+            throw InvalidArgument("an answer can have at most {} numbers or characters; submit fewer values",
+                                  kMaxNumbers);
     }
 
     void text_members(int index) {
@@ -101,7 +102,8 @@ class AnswerWriter {
             const bool in_list = lua_isinteger(L, -2) && lua_tointeger(L, -2) >= 1 && lua_tointeger(L, -2) <= length;
             if (in_list) continue;
             if (lua_type(L, -2) != LUA_TSTRING)
-                throw InvalidArgument("the keys of a table must be names, or the integers from 1 without gaps");
+                throw InvalidArgument(
+                    "the keys of a table in an answer must be names, or the integers from 1 without gaps");
             const std::string name = lua_tostring(L, -2);
             count(static_cast<Index>(name.size()));
             json_.key(name);
@@ -220,7 +222,7 @@ void push_members(lua_State* L, const std::string& kind, ValueReader& answer, in
     } else if (kind == "table") {
         push_answer_table(L, answer, depth);
     } else {
-        throw InvalidArgument("the answer has an unknown kind");
+        throw InvalidArgument("the answer has the unknown kind \"{}\"", kind);
     }
 }
 

@@ -114,7 +114,8 @@ std::vector<int> counts_argument(const Call& call, int index, ArgumentName what)
     std::vector<int> counts;
     for (const double value : values) {
         if (!(value >= 0) || value != std::floor(value))
-            throw InvalidArgument("{} must contain nonnegative integers", argument_label(index, what));
+            throw InvalidArgument("{} must contain nonnegative integers, but it contains {}",
+                                  argument_label(index, what), significant(value, 10));
         counts.push_back(static_cast<int>(value));
     }
     return counts;
@@ -211,8 +212,9 @@ StartedStructure started_structure(const Call& call, const Options& options, con
                 if (data.input_count() != structure.inputs || data.output_count() != structure.outputs)
                     throw InvalidArgument("the start model has {} and {}, but the data have {} and {}",
                                           plural(structure.inputs, "{} input", "{} inputs"),
-                                          plural(structure.outputs, "{} output", "{} outputs"), data.input_count(),
-                                          data.output_count());
+                                          plural(structure.outputs, "{} output", "{} outputs"),
+                                          plural(data.input_count(), "{} input", "{} inputs"),
+                                          plural(data.output_count(), "{} output", "{} outputs"));
                 return structure;
             },
             aids};

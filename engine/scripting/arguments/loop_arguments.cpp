@@ -14,8 +14,8 @@ LoopController controller_at(const Call& call, int index) {
                               Message("a model, such as 2 + 1/s or tf({2, -1.9}, {1, -1}, Ts)"), given_value(L, index));
     if (!model->single_channel())
         throw InvalidArgument(
-            "the controller must have one input, reference minus output, and one output, but this model has {} and {}",
-            model->inputs(), model->outputs);
+            "the controller must have one input (reference minus output) and one output, but this model has {} and {}",
+            plural(model->inputs(), "{} input", "{} inputs"), plural(model->outputs, "{} output", "{} outputs"));
     return {model->G};
 }
 

@@ -20,6 +20,7 @@ void ScriptFunction::push() const {
 void call_or_throw(lua_State* L, int arguments, int results, Message (*surplus)()) {
     if (lua_pcall(L, arguments, results + 1, 0) != LUA_OK) {
         pass_stop_on(L);
+        translate_value_on_top(L);
         const Message message = error_at(L, -1).with_place();
         lua_pop(L, 1);
         throw InvalidArgument(message);

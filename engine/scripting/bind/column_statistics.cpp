@@ -10,7 +10,7 @@ namespace dynlab::inline scripting {
 namespace {
 
 void need_values(Index count, Index minimum) {
-    if (count == 0) throw InvalidArgument("{} has no elements", argument_label(1, "v"));
+    if (count == 0) throw InvalidArgument("{} must have at least one element, but it is empty", argument_label(1, "v"));
     if (count < minimum)
         throw InvalidArgument("a standard deviation or a variance needs at least two values, but only one was given");
 }
@@ -79,7 +79,8 @@ int extreme(Call& call) {
         }
         const VectorMap w = call.vector(other, "y");
         if (v.size() != w.size())
-            throw InvalidArgument("x has {}, but y has {}", plural(v.size(), "{} value", "{} values"), w.size());
+            throw InvalidArgument("x and y must have the same number of elements, but x has {} and y has {}",
+                                  plural(v.size(), "{} value", "{} values"), w.size());
         return call.give_vector(v.binaryExpr(w, better));
     }
     if (to_matrix(call.state(), 1) != nullptr) {

@@ -32,7 +32,8 @@ int compare_elements(Call& call) {
     const bool number = call.type(2) == LUA_TNUMBER;
     const VectorMap x = number ? v : call.vector(2, "x");
     if (x.size() != v.size())
-        throw InvalidArgument("v has {}, but x has {}", plural(v.size(), "{} value", "{} values"), x.size());
+        throw InvalidArgument("v and x must have the same number of elements, but v has {} and x has {}",
+                              plural(v.size(), "{} value", "{} values"), x.size());
     const double bound = number ? call.number(2, "x") : 0;
     MaskBlock& mask = push_mask(call.state(), v.size());
     for (Index i = 0; i < v.size(); ++i) mask.data()[i] = Relation()(v[i], number ? bound : x[i]);

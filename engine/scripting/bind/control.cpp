@@ -58,11 +58,14 @@ ComplexVector listed_poles(const Call& call, int index) {
             continue;
         }
         if (lua_type(L, -1) != LUA_TTABLE || lua_rawlen(L, -1) != 2)
-            throw InvalidArgument("poles must be numbers, or complex conjugate pairs {re, im}");
+            throw InvalidArgument("poles must be numbers, or complex conjugate pairs {re, im}, but entry {} is {}", i,
+                                  given_value(L, -1));
         lua_rawgeti(L, -1, 1);
         lua_rawgeti(L, -2, 2);
         if (lua_type(L, -1) != LUA_TNUMBER || lua_type(L, -2) != LUA_TNUMBER)
-            throw InvalidArgument("the two parts of a complex pole {re, im} must be numbers");
+            throw InvalidArgument(
+                "the two parts of a complex pole {re, im} must be numbers, but entry {} has {} and {}", i,
+                given_value(L, -2), given_value(L, -1));
         poles.emplace_back(lua_tonumber(L, -2), lua_tonumber(L, -1));
         lua_pop(L, 2);
         poles.push_back(std::conj(poles.back()));

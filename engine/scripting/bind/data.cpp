@@ -109,7 +109,9 @@ std::map<std::string, std::string> units_by_name(const Options& options) {
     if (!options.has("units")) return units;
     lua_State* L = options.call().state();
     const int index = options.push("units");
-    const auto refuse = [] { throw InvalidArgument("option 'units' must be a table such as {u = \"V\"}"); };
+    const auto refuse = [] {
+        throw InvalidArgument("option 'units' must be a table of column names and their units, such as {u = \"V\"}");
+    };
     if (lua_type(L, index) != LUA_TTABLE) refuse();
     lua_pushnil(L);
     while (lua_next(L, index)) {
@@ -313,7 +315,8 @@ int make_iddata(Call& call) {
             "option 'Tstart' cannot be combined with 'SamplingInstants', which include the first instant");
     data.experiments.front().start_time = options.number("Tstart", data.experiments.front().start_time);
     if (!std::isfinite(data.experiments.front().start_time))
-        throw InvalidArgument("option 'Tstart' must be a finite number");
+        throw InvalidArgument("option 'Tstart' must be a finite number, but {} was given",
+                              data.experiments.front().start_time);
     if (options.has("Reference")) data = data.with_reference(reference_of(options));
     return give_data(call, std::move(data));
 }

@@ -69,8 +69,8 @@ double element_of(const Call& call, int index, Index i, Index size) {
     if (call.type(index) == LUA_TNUMBER) return call.number(index, "value");
     const VectorMap v = call.vector(index, index == 2 ? "a" : "b");
     if (v.size() != size)
-        throw InvalidArgument("c has {}, but {} has {}", plural(size, "{} value", "{} values"), index == 2 ? "a" : "b",
-                              v.size());
+        throw InvalidArgument("all vectors must have the same number of elements, but c has {} and {} has {}",
+                              plural(size, "{} value", "{} values"), index == 2 ? "a" : "b", v.size());
     return v[i];
 }
 

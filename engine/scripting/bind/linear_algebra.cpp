@@ -16,7 +16,9 @@ MatrixMap square_matrix(Call& call) {
     if (A.rows() != A.cols())
         throw InvalidArgument("{} must be a square matrix, but it is {} x {}", argument_label(1, "A"), A.rows(),
                               A.cols());
-    if (!A.allFinite()) throw InvalidArgument("{} must have finite elements", argument_label(1, "A"));
+    if (!A.allFinite())
+        throw InvalidArgument("{} must have only finite elements, but it contains NaN or an infinite value",
+                              argument_label(1, "A"));
     return A;
 }
 
@@ -45,7 +47,8 @@ int determinant(Call& call) {
 
 int give_eigenvalues(Call& call) {
     const MatrixMap A = square_matrix(call);
-    if (A.rows() == 0) throw InvalidArgument("{} has no elements", argument_label(1, "A"));
+    if (A.rows() == 0)
+        throw InvalidArgument("{} must have at least one element, but it is empty", argument_label(1, "A"));
     if (A == A.transpose()) return call.give_vector(symmetric_eigenvalues(A));
     push_object(call.state(), eigenvalues(A));
     return 1;

@@ -42,9 +42,10 @@ const PolynomialModel& polynomials(Call& call) {
     const Model& model = model_self(call);
     if (model.polynomial) return *model.polynomial;
     throw InvalidArgument(
-        "only discrete-time polynomial models, such as the results of arx, oe and sriv, have this polynomial. lssvf "
-        "and ivsvf return A and B. srivc, coe and tfsrivc return B and F. rivc returns B, C, D and F. n4sid returns "
-        "the matrices A, B, C and D");
+        "only discrete-time polynomial models, such as the results of arx, oe and sriv, have the field {}. lssvf and "
+        "ivsvf return A and B. srivc, coe and tfsrivc return B and F. rivc returns B, C, D and F. n4sid returns the "
+        "matrices A, B, C and D",
+        call.function_name());
 }
 bool is_carx(Call& call) {
     const Model& model = model_self(call);
@@ -122,8 +123,7 @@ int field_parameter(Call& call) {
     const ModelParameters parameters = parameters_of(model_self(call));
     for (std::size_t i = 0; i < parameters.names.size(); ++i)
         if (parameters.names[i] == name) return call.give(parameters.values[static_cast<Index>(i)]);
-    throw InvalidArgument("this model has no parameter with this name; its parameters are {}",
-                          listed(parameters.names));
+    throw InvalidArgument("this model has no parameter {}; its parameters are {}", name, listed(parameters.names));
 }
 
 /// A matrix of a state-space model, or the field of the same letter of other models.
@@ -234,7 +234,8 @@ int field_free_parameter(Call& call) {
     const auto names = object_argument<ProcessStructure>(call, 1, "structure").parameter_names();
     if (std::find(names.begin(), names.end(), call.function_name()) != names.end())
         return call.give(std::numeric_limits<double>::quiet_NaN());
-    throw InvalidArgument("this structure has no parameter with this name; its parameters are {}", listed(names));
+    throw InvalidArgument("this structure has no parameter {}; its parameters are {}", call.function_name(),
+                          listed(names));
 }
 
 constexpr lua_CFunction kFreeParameter = guarded<field_free_parameter>;

@@ -204,7 +204,8 @@ int connect_feedback(Call& call) {
     call.at_most(3);
     const Index sign = call.given(3) ? call.integer(3, "sign") : -1;
     if (sign != 1 && sign != -1)
-        throw InvalidArgument("the sign must be -1 (negative feedback) or 1 (positive feedback)");
+        throw InvalidArgument("the sign must be -1 (negative feedback) or 1 (positive feedback), but {} was given",
+                              sign);
     const auto part = [&](int index, ArgumentName what) {
         return with_rational_delay("feedback", model_argument(call, index, what).G);
     };

@@ -42,7 +42,7 @@ constexpr std::array kNoisyTransferArguments = {
 
 int noise_order(const std::vector<int>& entry, const OrderEntry& what) {
     if (entry.size() == 1) return entry.front();
-    throw InvalidArgument("{} must be one number for the noise of the output, but {} were given", what.name,
+    throw InvalidArgument("{} must be one number for the noise of the output, but {} values were given", what.name,
                           entry.size());
 }
 

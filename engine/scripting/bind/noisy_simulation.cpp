@@ -163,9 +163,9 @@ int simulate_with_noise(Call& call) {
 std::optional<TransferStructure> structure_of_estimate(const Model& model) {
     if (model.estimate && !model.polynomial && !model.estimate->of_coefficients)
         throw InvalidArgument(
-            "the model was estimated with option 'Integration' or by hammerstein, so its covariance does not apply to "
-            "the coefficients, and random models cannot be generated. Use a model that was estimated by srivc or "
-            "tfsrivc");
+            "random models cannot be generated from a model that was estimated with option 'Integration' or by "
+            "hammerstein: its covariance does not apply to the coefficients. Use a model that was estimated by srivc "
+            "or tfsrivc");
     if (!model.G.continuous() || model.process || model.system || !model.estimate->of_coefficients) return std::nullopt;
     Vector theta;
     TransferStructure structure = TransferStructure::of_models(channels_of(model), 1, theta);

@@ -89,7 +89,9 @@ std::pair<int, int> range_of(const Options& options, const char* name, std::pair
     }
     const auto [from, to] = *options.range(name);
     if (from != std::floor(from) || to != std::floor(to))
-        throw InvalidArgument("option '{}' must be one whole number, or two whole numbers {from, to}", name);
+        throw InvalidArgument(
+            "option '{}' must be one whole number, or two whole numbers {from, to}, but {{}, {}} was given", name,
+            significant(from, 10), significant(to, 10));
     return {static_cast<int>(from), static_cast<int>(to)};
 }
 
@@ -106,7 +108,10 @@ std::vector<double> delays_of(const Options& options, const IdData& data) {
     std::vector<double> delays;
     for (const double k : samples) {
         if (k < 0 || k != std::floor(k))
-            throw InvalidArgument("option 'delays' must contain whole numbers of samples, such as {0, 1, 2}");
+            throw InvalidArgument(
+                "option 'delays' must contain nonnegative whole numbers of samples, such as {0, 1, 2}, "
+                "but it contains {}",
+                significant(k, 10));
         delays.push_back(k * data.Ts);
     }
     return delays;
@@ -117,8 +122,8 @@ std::vector<TransferStructure> grid_of(const Options& options, const IdData& dat
     const bool free_delay = options.has("TdMax");
     if (free_delay && options.has("delays"))
         throw InvalidArgument(
-            "specify either option 'delays' (a list of delays to try) or option 'TdMax' (the upper limit of an "
-            "estimated delay)");
+            "options 'delays' (a list of delays to try) and 'TdMax' (the upper limit of an estimated delay) cannot be "
+            "combined; omit one of these options");
     return order_grid(range_of(options, "poles", {1, 4}), range_of(options, "zeros", {0, 2}),
                       free_delay ? std::vector{options.number("TdMin", 0)} : delays_of(options, data), free_delay,
                       options.flag("Feedthrough", false));
@@ -136,7 +141,9 @@ std::vector<TransferStructure> listed_structures(const Call& call, const IdData&
         const auto orders = order_lists(call, 2, kStructureOrders);
         for (const auto& entry : orders)
             if (entry.size() != 1) throw InvalidArgument("the orders {nb, nf, nk} must be numbers, not lists");
-        if (orders[0][0] < 1) throw InvalidArgument("nb, the number of coefficients of B, must be at least 1");
+        if (orders[0][0] < 1)
+            throw InvalidArgument("nb, the number of coefficients of B, must be at least 1, but {} was given",
+                                  orders[0][0]);
         structures.push_back(TransferStructure::single(orders[1][0], orders[0][0] - 1, orders[2][0] * data.Ts));
     }
     lua_settop(L, list);
@@ -154,7 +161,9 @@ bool is_list(const Call& call, int index) {
 const IdData* validation_data(const Options& options) {
     if (!options.has("validate")) return nullptr;
     const IdData* data_set = to_object<IdData>(options.call().state(), options.push("validate"));
-    if (data_set == nullptr) throw InvalidArgument("option 'validate' must be a data object");
+    if (data_set == nullptr)
+        throw InvalidArgument("option 'validate' must be a data object, but {} was given",
+                              given_value(options.call().state(), -1));
     return data_set;
 }
 

@@ -188,7 +188,8 @@ int draw_regression(Call& call) {
     RegressionPicture picture;
     picture.x = call.vector(1, "x");
     picture.y = call.vector(2, "y");
-    if (picture.x.size() == 0) throw InvalidArgument("{} has no elements", argument_label(1, "x"));
+    if (picture.x.size() == 0)
+        throw InvalidArgument("{} must have at least one element, but it is empty", argument_label(1, "x"));
     const double level = options.number("level", 0.95);
     const auto x_new = options.optional_number("forecast");
     const double from = picture.x.minCoeff();

@@ -65,7 +65,8 @@ std::vector<std::string> names_of_entries(lua_State* L, int index) {
     lua_pushnil(L);
     while (lua_next(L, index)) {
         lua_pop(L, 1);
-        if (lua_type(L, -1) != LUA_TSTRING) throw InvalidArgument("every entry needs a name: {t = t, y = y}");
+        if (lua_type(L, -1) != LUA_TSTRING)
+            throw InvalidArgument("every entry of the table needs a name, as in {t = t, y = y}");
         names.emplace_back(lua_tostring(L, -1));
     }
     std::sort(names.begin(), names.end(), [](const std::string& a, const std::string& b) {
@@ -107,7 +108,8 @@ Vector list_of_numbers(lua_State* L, int index, const std::string& name) {
 }
 
 [[noreturn]] void refuse_entry(lua_State* L, const std::string& name, const Message& required) {
-    if (lua_isnil(L, -1)) throw InvalidArgument("the table has no entry '{}'", name);
+    if (lua_isnil(L, -1))
+        throw InvalidArgument("the table has no entry '{}'; correct the name, or add the entry", name);
     throw InvalidArgument("'{}' must be {}, but it is {}", name, required, given_value(L, -1));
 }
 
@@ -182,11 +184,12 @@ std::map<std::string, std::string> texts_by_name(const Call& call, const Options
     lua_State* L = call.state();
     const int index = options.push(option);
     if (lua_type(L, index) != LUA_TTABLE)
-        throw InvalidArgument("option '{}' must be a table such as {t = \"s\"}", option);
+        throw InvalidArgument("option '{}' must be a table such as {t = \"s\"}, but {} was given", option,
+                              given_value(L, index));
     lua_pushnil(L);
     while (lua_next(L, index)) {
         if (lua_type(L, -2) != LUA_TSTRING || lua_type(L, -1) != LUA_TSTRING)
-            throw InvalidArgument("option '{}' must contain a string for each name", option);
+            throw InvalidArgument("option '{}' must contain only names with strings, such as {t = \"s\"}", option);
         texts[lua_tostring(L, -2)] = lua_tostring(L, -1);
         lua_pop(L, 1);
     }

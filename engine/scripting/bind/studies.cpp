@@ -115,6 +115,7 @@ MonteCarloMethod method_of_function(const Call& call, const std::string& label, 
         push_object(L, data);
         if (lua_pcall(L, 1, 2, 0) != LUA_OK) {
             pass_stop_on(L);
+            translate_value_on_top(L);
             const Message message = lua_type(L, -1) == LUA_TSTRING ? error_at(L, -1).with_place() : given_value(L, -1);
             lua_settop(L, top);
             throw InvalidArgument(message);
@@ -178,7 +179,9 @@ std::vector<MonteCarloMethod> methods_of(const Call& call, int table) {
     lua_State* L = call.state();
     if (!lua_istable(L, table))
         throw InvalidArgument(
-            "option 'estimators' must be a table, such as {lssvf = {{2, 1, 0}, 3}, ivsvf = {{2, 1, 0}, 3}}");
+            "option 'estimators' must be a table, such as {lssvf = {{2, 1, 0}, 3}, ivsvf = {{2, 1, 0}, 3}}, "
+            "but {} was given",
+            given_value(L, table));
     std::vector<MonteCarloMethod> methods;
     const auto length = static_cast<lua_Integer>(lua_rawlen(L, table));
     for (lua_Integer i = 1; i <= length; ++i) {
@@ -208,7 +211,7 @@ void read_excitation(const Options& options, MonteCarloStudy& study) {
     const char *name = loop ? "reference" : "input", *other = loop ? "input" : "reference";
     if (options.has(other))
         throw InvalidArgument(
-            loop ? Message("in a closed loop, controller and reference determine the input: omit 'input'")
+            loop ? Message("in a closed loop, controller and reference determine the input; omit option 'input'")
                  : Message("option 'reference' applies only to a closed loop and requires the option 'controller'"));
     if (!options.has(name)) throw InvalidArgument("option '{}' is missing; specify the samples of the {}", name, name);
     study.u = options.vector(name);
@@ -243,7 +246,10 @@ void make_in_parts(MonteCarloStudy& study, lua_State* L) {
         std::vector<MonteCarloRun> all;
         for (const std::string& part : parts->all(context_of(L).recorder.record().files_read, runs, bytes_of))
             for (MonteCarloRun& run : from_cbor<std::vector<MonteCarloRun>>(part)) all.push_back(std::move(run));
-        if (all.size() != runs) throw EnvironmentError("the parts of montecarlo do not add up to {} runs", runs);
+        if (all.size() != runs)
+            throw EnvironmentError(
+                "the stored parts contain {} runs of montecarlo, but the script requests {}; compute the parts again",
+                all.size(), runs);
         return all;
     };
 }

@@ -99,7 +99,8 @@ int eye(Call& call) {
 Eigen::Map<Vector> spaced(Call& call, Index usual_count) {
     call.at_most(3);
     const double first = call.number(1, "first"), last = call.number(2, "last");
-    if (!std::isfinite(first) || !std::isfinite(last)) throw InvalidArgument("first and last must be finite numbers");
+    if (!std::isfinite(first) || !std::isfinite(last))
+        throw InvalidArgument("first and last must be finite numbers, but they are {} and {}", first, last);
     const Index count = call.given(3) ? call.size(3, "n") : usual_count;
     Eigen::Map<Vector> values = push_vector(call.state(), count).vector();
     values = Vector::LinSpaced(count, first, last);
@@ -123,7 +124,8 @@ int range(Call& call) {
     if (step == 0 || !std::isfinite(step))
         throw InvalidArgument("the step must be finite and not zero, but it is {}", step);
     const double count = std::floor((last - first) / step * (1 + 1e-15) + 1e-10) + 1;
-    if (!std::isfinite(count)) throw InvalidArgument("first and last must be finite numbers");
+    if (!std::isfinite(count))
+        throw InvalidArgument("first and last must be finite numbers, but they are {} and {}", first, last);
     NumericBlock& block = push_vector(call.state(), index_of_whole(std::max(count, 0.0)));
     for (Index k = 0; k < block.rows; ++k) block.data()[k] = first + static_cast<double>(k) * step;
     return 1;
@@ -138,13 +140,15 @@ int dot(Call& call) {
     call.at_most(2);
     const VectorMap a = call.vector(1, "a"), b = call.vector(2, "b");
     if (a.size() != b.size())
-        throw InvalidArgument("a has {}, but b has {}", plural(a.size(), "{} value", "{} values"), b.size());
+        throw InvalidArgument("a and b must have the same number of elements, but a has {} and b has {}",
+                              plural(a.size(), "{} value", "{} values"), b.size());
     return call.give(a.dot(b));
 }
 
 VectorMap not_empty(Call& call, int index, ArgumentName what) {
     const VectorMap v = call.vector(index, what);
-    if (v.size() == 0) throw InvalidArgument("{} has no elements", argument_label(index, what));
+    if (v.size() == 0)
+        throw InvalidArgument("{} must have at least one element, but it is empty", argument_label(index, what));
     return v;
 }
 

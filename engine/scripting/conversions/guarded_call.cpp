@@ -98,7 +98,7 @@ int run_guarded(lua_State* L, Binding body) {
     } catch (const Interrupted&) {
         message = Message();
     } catch (const std::bad_alloc&) {
-        message = Message("not enough memory");
+        message = Message("not enough memory for this call; use less data");
     } catch (const std::exception& error) {
         message = with_script_options(message_of(error), {nullptr, context_of(L).option_name});
     }

@@ -33,9 +33,9 @@ int final_message(lua_State* L) {
     context_of(L).calls = call_chain(L);
     if (lua_type(L, 1) == LUA_TSTRING) return 1;
     ScriptPlace place = script_place(L);
-    push_error(L,
-               {lua_isnil(L, 1) ? Message("error() was called without a message") : Message::verbatim(value_text(L, 1)),
-                std::move(place.file), place.line});
+    push_error(L, {lua_isnil(L, 1) ? Message("error() was called without a message; write error(\"message\")")
+                                   : Message::verbatim(value_text(L, 1)),
+                   std::move(place.file), place.line});
     return 1;
 }
 

@@ -81,7 +81,8 @@ Model linear_grey_model(const GreyFit& grey, int index, ArgumentName what) {
     if (!system) refuse_simulated(index, what, Message("this grey-box model"));
     if (system->B.cols() == 1 && system->C.rows() == 1) return {to_transfer_function(*system)};
     throw InvalidArgument("{} must have one input and one output, but it has {} and {}", argument_label(index, what),
-                          system->B.cols(), system->C.rows());
+                          plural(system->B.cols(), "{} input", "{} inputs"),
+                          plural(system->C.rows(), "{} output", "{} outputs"));
 }
 
 }  // namespace
@@ -101,7 +102,8 @@ Model model_argument(const Call& call, int index, ArgumentName what) {
         if (const StateSpace* system = to_object<StateSpace>(call.state(), index)) {
             if (system->B.cols() == 1 && system->C.rows() == 1) return {to_transfer_function(*system)};
             throw InvalidArgument("{} must have one input and one output, but it has {} and {}",
-                                  argument_label(index, what), system->B.cols(), system->C.rows());
+                                  argument_label(index, what), plural(system->B.cols(), "{} input", "{} inputs"),
+                                  plural(system->C.rows(), "{} output", "{} outputs"));
         }
     }
     wrong_argument(call.state(), index, what, with_article("model"));

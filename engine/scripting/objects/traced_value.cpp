@@ -28,7 +28,8 @@ int input_of(Call& call) {
     const TracedValue& value = object_argument<TracedValue>(call, 1, "u");
     if (!value.inputs)
         throw InvalidArgument(
-            "this is a scalar, which has no elements; only the input u has numbered elements, such as u[1]");
+            "this symbolic value is a scalar, which has no elements; "
+            "only the input u has numbered elements, such as u[1]");
     const Index i = call.integer(2, Message("number of the input"));
     if (i < 1 || i > 1000) throw InvalidArgument("u[{}] does not exist: inputs are numbered from 1 to 1000", i);
     value.trace->inputs = std::max(value.trace->inputs, i);

@@ -97,6 +97,9 @@ Message argument_sentence(const std::string& text) {
         return Message("{}: {}", *function,
                        Message("argument {} must be {}, but {} was given", *number, with_article(*requested),
                                given == "no value" ? Message("no value") : what_it_is(given)));
+    if (inside == "number has no integer representation")
+        return Message("{}: argument {}: {}", *function, *number,
+                       Message("a whole number is required; round the number, for example with floor(x)"));
     return Message("{}: argument {}: {}", *function, *number, inside);
 }
 
@@ -114,7 +117,8 @@ const auto& fixed_messages() {
         PlainMessage{"C stack overflow", Message("infinite recursion (stack overflow): a function calls itself, "
                                                  "directly or through other functions, and never stops")},
         PlainMessage{"error in error handling", Message("an error occurred while another error was handled")},
-        PlainMessage{"number has no integer representation", Message("a whole number is required")},
+        PlainMessage{"number has no integer representation",
+                     Message("a whole number is required; round the number, for example with floor(x)")},
         PlainMessage{"attempt to divide by zero", Message("a whole number cannot be divided by zero with //")},
         PlainMessage{"attempt to perform 'n%0'", Message("the remainder of a division by zero is undefined")},
         PlainMessage{"'for' step is zero", Message("the step of a for loop must not be zero")},
@@ -194,7 +198,8 @@ Message syntax_sentence(const std::string& text, const std::string& near) {
             "a function can have at most {} local variables; declare further variables without 'local', or put them in "
             "a table",
             *max_locals);
-    if (text.find("unfinished string") != std::string::npos) return Message("unterminated string");
+    if (text.find("unfinished string") != std::string::npos)
+        return Message("the string is not closed by a quotation mark");
     if (near == "<eof>") return Message("the script ends in the middle of a statement");
     const bool closes = near == "end" || near == "else" || near == "elseif" || near == "until";
     if (starts_with(text, "<eof> expected") && !closes)

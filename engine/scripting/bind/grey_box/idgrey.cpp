@@ -74,7 +74,8 @@ void check_fields(lua_State* L, const std::string& name) {
         const std::string key = lua_type(L, -2) == LUA_TSTRING ? lua_tostring(L, -2) : message_text(given_value(L, -2));
         if (key != "1" && key != "min" && key != "max" && key != "fixed")
             throw InvalidArgument(
-                "the parameter {} must be written as {start, min =, max =, fixed =}; '{}' is not valid", name, key);
+                "the parameter {} must be written as {start, min =, max =, fixed =}; '{}' is not one of these fields",
+                name, key);
     }
 }
 
@@ -129,7 +130,8 @@ std::vector<std::string> states_option(const Options& options) {
     if (type != LUA_TNIL && type != LUA_TNUMBER) return options.texts("states");
     if (count < 1)
         throw InvalidArgument(
-            "option 'states' must be the names of the states, or their number: {states = {\"h1\", \"h2\"}}");
+            "the model needs at least one state: specify option 'states' (names such as {\"h1\", \"h2\"}, or a "
+            "number), or option 'x0' with one value per state");
     std::vector<std::string> names;
     for (lua_Integer i = 1; i <= count; ++i) names.push_back(fmt::format("x{}", i));
     return names;

@@ -211,7 +211,7 @@ Message more_than_start() {
         "x0 must return the initial states in one table, as in return {x1, x2}, but it returned several values");
 }
 Message more_than_matrices() {
-    return Message("f must return only the matrices A, B, C, D");
+    return Message("f must return only the matrices A, B, C, D, but it returned more than four values");
 }
 
 /// A function of (t, x, u, p), called with numbers.

@@ -57,8 +57,8 @@ const Model& output_error_argument(const Call& call, int index) {
     const char* const function = call.function_name();
     if (model == nullptr) wrong_argument(call.state(), index, "G", with_article("model"));
     const Message instead = Message(
-        "{} requires a model that minimizes the simulation error. Estimate the model with procsrivc, tfsrivc, tfrivc, "
-        "srivc, rivc, coe or tfcoe, without Integration",
+        "{} requires a model estimated by minimization of the simulation error. Estimate the model with procsrivc, "
+        "tfsrivc, tfrivc, srivc, rivc, coe or tfcoe, without option 'Integration'",
         function);
     if (!model->estimate) throw InvalidArgument("the model was specified, not estimated; {}", instead);
     const Estimate& estimate = *model->estimate;

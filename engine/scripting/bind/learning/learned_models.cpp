@@ -110,7 +110,8 @@ FunctionLibrary library_option(const Call& call, const Options& options, const I
     if (own && options.has("degree"))
         throw InvalidArgument(
             "options 'library' and 'degree' cannot be combined: 'degree' applies only to polynomials");
-    if (!own && options.has("names")) throw InvalidArgument("option 'names' requires a library");
+    if (!own && options.has("names"))
+        throw InvalidArgument("option 'names' requires option 'library'; specify 'library', or omit 'names'");
     if (!own)
         return polynomial_library(data.output_names, data.input_names, static_cast<int>(options.size("degree", 2)));
     const int index = options.push("library");

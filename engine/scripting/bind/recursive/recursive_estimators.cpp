@@ -120,7 +120,8 @@ std::map<std::string, Vector> truth_of(const Options& options) {
     lua_State* L = options.call().state();
     const int index = options.push("truth");
     if (lua_type(L, index) != LUA_TTABLE)
-        throw InvalidArgument("option 'truth' must be a table such as {a1 = 4, b0 = v}");
+        throw InvalidArgument("option 'truth' must be a table such as {a1 = 4, b0 = v}, but {} was given",
+                              given_value(L, index));
     for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
         if (lua_type(L, -2) != LUA_TSTRING)
             throw InvalidArgument("option 'truth' must contain named values, such as {a1 = 4, b0 = v}");
