@@ -75,7 +75,7 @@ class HeaderReader {
         }
         std::string* const text = text_field(key);
         if (!text && key != "seed") unknown(key);
-        if (value.empty()) fail(Message("key \"{}\" has no value", key));
+        if (value.empty()) fail(Message("key \"{}\" has no value; add a value, or remove the line", key));
         if (!text)
             header_.seed = seed_of(value);
         else

@@ -57,7 +57,8 @@ TEST(printed_values, blocks_of_lines_do_not_run_together) {
 
 TEST(printed_values, advice_is_not_followed_by_its_table) {
     const std::string text = printed("local d = load('crane').steps print(advice(iddata(d.x, d.u, 0.02)))");
-    EXPECT_THAT(text, ContainsRegex("\n\\([0-9]+ issues?; with a = advice.data., see a\\[1\\].message"));
+    EXPECT_THAT(text,
+                ContainsRegex("\n\\([0-9]+ issues?; the result a = advice.data. has the fields a\\[1\\].message"));
     EXPECT_THAT(text, Not(HasSubstr("message =")));
 }
 

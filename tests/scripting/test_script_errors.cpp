@@ -114,7 +114,8 @@ TEST(script_errors, put_what_lua_says_into_plain_words) {
         {"for i = 1, 2, 0 do end", "lesson.lua:1: the step of a for loop must not be zero"},
         {"local y = 1//0", "lesson.lua:1: a whole number cannot be divided by zero with //"},
         {"local y = 1%0", "lesson.lua:1: the remainder of a division by zero is undefined"},
-        {"local t = {}\nt[nil] = 1", "lesson.lua:2: the key of the table is nil (it has no value)"},
+        {"local t = {}\nt[nil] = 1",
+         "lesson.lua:2: a key of a table must not be nil (no value); check the expression in the brackets"},
         {"local function f() return 1 + f() end\nf()",
          "lesson.lua:1: infinite recursion (stack overflow): a function calls itself, directly or through other "
          "functions, and never stops"},
@@ -308,7 +309,9 @@ TEST(script_errors, count_one_in_the_singular) {
          "lesson.lua:1: lsq: least squares: the matrix has 2 rows, but the right-hand side has 1 value"},
         {"local y = vector{1} + vector{1, 2}",
          "lesson.lua:1: x + y needs equal sizes, but x is a vector of 1 value and y is a vector of 2 values"},
-        {"report.table('t', {{'a', 'b'}, {1}})", "lesson.lua:1: report.table: row 2 has 1 cell, but the header has 2"},
+        {"report.table('t', {{'a', 'b'}, {1}})",
+         "lesson.lua:1: report.table: row 2 has 1 cell, but the header has 2; all rows must have the same number of "
+         "cells"},
         {"local v = vector{5}\nprint(v[2])", "lesson.lua:2: v[2] does not exist: v has only the element 1"},
         {"zeros(1, 2):row(2)", "lesson.lua:1: row 2 does not exist: there is only 1"},
         {data_set + "d:experiment(2)", "lesson.lua:2: experiment 2 does not exist: there is only 1"},

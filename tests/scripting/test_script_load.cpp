@@ -56,7 +56,7 @@ TEST_F(script_load, reports_what_was_assumed_and_feeds_fillmissing) {
         "(first on line 3). Use fillmissing(u, {method = \"previous\"}) for an input that is logged only when it "
         "changes, "
         "and fillmissing(y) for an output\na.txt: the numbers have a decimal comma, as in 3,5\n2.25\t3.5\tV\n");
-    EXPECT_THAT(complains("print(load(\"a.txt\").y)"), HasSubstr("have no variable 'y'; they have time, u"));
+    EXPECT_THAT(complains("print(load(\"a.txt\").y)"), HasSubstr("have no variable 'y'; the variables are time, u"));
 }
 
 TEST_F(script_load, names_the_file_and_the_line_that_cannot_be_read) {

@@ -97,15 +97,16 @@ TEST(script_plants, are_described_by_the_signals_that_their_records_have) {
 
 TEST(script_plants, unknown_fields_are_reported_at_every_level) {
     for (const std::string table : {"load('crane')", "plant('crane')"}) {
-        EXPECT_NE(error_of("print(" + table + ".estimaton)")
-                      .find("the data of 'crane' have no variable 'estimaton'; they have estimation, free_swing"),
-                  std::string::npos);
+        EXPECT_NE(
+            error_of("print(" + table + ".estimaton)")
+                .find("the data of 'crane' have no variable 'estimaton'; the variables are estimation, free_swing"),
+            std::string::npos);
         EXPECT_NE(error_of("print(" + table + ".steps.phi)")
-                      .find("the data of 'crane.steps' have no variable 'phi'; they have t, theta, u, x"),
+                      .find("the data of 'crane.steps' have no variable 'phi'; the variables are t, theta, u, x"),
                   std::string::npos);
     }
     EXPECT_NE(error_of("print(true_model('suspension').wn)")
-                  .find("the data of 'true_model(\"suspension\")' have no variable 'wn'; they have"),
+                  .find("the data of 'true_model(\"suspension\")' have no variable 'wn'; the variables are"),
               std::string::npos);
 }
 

@@ -203,7 +203,8 @@ TEST(script_vectors, form_matrices) {
         error_of("local B = eye(2)*ones(3, 3)"),
         "lesson.lua:1: A * B needs as many columns in A as rows in B, but A is a 2 x 2 matrix and B is a 3 x 3 matrix");
     EXPECT_EQ(error_of("matrix{{1, 2}, {3}}"),
-              "lesson.lua:1: matrix: argument 1 (rows or columns): row 2 has 1 value, but row 1 has 2");
+              "lesson.lua:1: matrix: argument 1 (rows or columns): row 2 has 1 value, but row 1 has 2; all rows must "
+              "have the same length");
     EXPECT_EQ(error_of("local x = eye(2)[1]"),
               "lesson.lua:1: write an element of a matrix as A[{i, j}], a row as A:row(i), and a column as A:col(j), "
               "not as A[1]");
@@ -244,7 +245,8 @@ TEST(script_vectors, matrix_rows_of_vectors_and_numbers_are_joined) {  // oracle
     EXPECT_EQ(printed("print(matrix{{vector{1, 2}, 3}, {4, 5, 6}})"), "1  2  3\n4  5  6\n");
     EXPECT_EQ(printed("print(matrix{{1, 2, 3}, {4, vector{5, 6}}})"), "1  2  3\n4  5  6\n");
     EXPECT_EQ(error_of("matrix{{vector{1, 2}, 3}, {4, 5}}"),
-              "lesson.lua:1: matrix: argument 1 (rows or columns): row 2 has 2 values, but row 1 has 3");
+              "lesson.lua:1: matrix: argument 1 (rows or columns): row 2 has 2 values, but row 1 has 3; all rows must "
+              "have the same length");
     EXPECT_EQ(
         error_of("matrix{{1, 'a'}}"),
         "lesson.lua:1: matrix: argument 1 (rows or columns), row 1 must be a vector of numbers, but its element 2 "

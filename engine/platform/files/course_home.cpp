@@ -71,7 +71,8 @@ std::optional<fs::path> own_course() {
     const char* named = std::getenv("DYNLAB_COURSE");
     if (named == nullptr || *named == '\0') return std::nullopt;
     const fs::path folder = fs::absolute(named).lexically_normal();
-    if (!fs::is_directory(folder)) throw EnvironmentError("DYNLAB_COURSE: folder not found: '{}'", named);
+    if (!fs::is_directory(folder))
+        throw EnvironmentError("DYNLAB_COURSE: folder not found: '{}'. Set DYNLAB_COURSE to an existing folder", named);
     for (const char* part : kParts)
         if (fs::is_directory(folder / part)) return folder;
     throw EnvironmentError(

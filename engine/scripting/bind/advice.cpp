@@ -40,10 +40,11 @@ std::string text_of(const Call& call, const Advice& advice, std::size_t experime
 
 /// print(advice(data)): the sentences have been printed, so that this only says what the table holds.
 int advice_to_text(lua_State* L) {
-    const std::string text =
-        localized(Call(L), plural(static_cast<std::int64_t>(lua_rawlen(L, 1)),
-                                  "({} issue; with a = advice(data), see a[1].message, ..., a.clean and a.discard)",
-                                  "({} issues; with a = advice(data), see a[1].message, ..., a.clean and a.discard)"));
+    const std::string text = localized(
+        Call(L),
+        plural(static_cast<std::int64_t>(lua_rawlen(L, 1)),
+               "({} issue; the result a = advice(data) has the fields a[1].message, ..., a.clean and a.discard)",
+               "({} issues; the result a = advice(data) has the fields a[1].message, ..., a.clean and a.discard)"));
     lua_pushlstring(L, text.data(), text.size());
     return 1;
 }

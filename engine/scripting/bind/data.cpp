@@ -247,11 +247,9 @@ void report_different_clock(const Call& call, const IdData& data) {
         constexpr double kClose = 0.01;
         if (!unit || origin.Ts == 0 || std::abs(data.Ts * *unit - origin.Ts) <= kClose * origin.Ts) continue;
         call.print(
-            localized(
-                call,
-                Message(
-                    "iddata: the sampling time is {} {}, but according to the time column '{}' of the file it is {} s",
-                    significant(data.Ts, 6), data.time_unit, origin.clock, significant(origin.Ts, 6))) +
+            localized(call, Message("iddata: the sampling time is {} {}, but according to the time column '{}' of the "
+                                    "file it is {} s; check the argument Ts",
+                                    significant(data.Ts, 6), data.time_unit, origin.clock, significant(origin.Ts, 6))) +
             "\n");
         return;
     }

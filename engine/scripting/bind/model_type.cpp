@@ -28,7 +28,7 @@ const Estimate& estimate_in(const Model& model) {
 /// The transfer function of a model with one channel.
 const TransferFunction& only_channel(const Model& model) {
     if (model.single_channel()) return model.G;
-    throw InvalidArgument("this field exists only for models with one channel, but this model has several channels: {}",
+    throw InvalidArgument("this field exists only for models with one input and one output, but {}",
                           channels_hint(model));
 }
 Vector numerator_of(const Model& model) {

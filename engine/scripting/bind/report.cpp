@@ -134,8 +134,8 @@ int report_table(Call& call) {
         std::vector<std::string> cells = read_cells(call, lua_gettop(L), i);
         if (i == 1) table.header = cells;
         if (cells.size() != table.header.size())
-            throw InvalidArgument("row {} has {}, but the header has {}", i,
-                                  plural(cells.size(), "{} cell", "{} cells"), table.header.size());
+            throw InvalidArgument("row {} has {}, but the header has {}; all rows must have the same number of cells",
+                                  i, plural(cells.size(), "{} cell", "{} cells"), table.header.size());
         if (i > 1) table.rows.push_back(std::move(cells));
     }
     if (table.header.empty())

@@ -93,8 +93,9 @@ int vector_range(Call& call) {
 
 int select_by_mask(Call& call, NumericBlock& v, MaskBlock& mask) {
     if (mask.size != v.rows)
-        throw InvalidArgument("the mask has {}, but the vector has {}", plural(mask.size, "{} value", "{} values"),
-                              v.rows);
+        throw InvalidArgument(
+            "the mask and the vector must have the same number of elements, but the mask has {} and the vector has {}",
+            plural(mask.size, "{} value", "{} values"), v.rows);
     const Index count = std::count(mask.data(), mask.data() + mask.size, true);
     double* target = push_vector(call.state(), count).data();
     for (Index i = 0; i < v.rows; ++i)

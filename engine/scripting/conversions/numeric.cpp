@@ -90,8 +90,11 @@ void refuse_named_entries(lua_State* L, int index, const Message& label) {
 void check_length(Index length, Index first_length, Index i, bool row, const Message& label) {
     if (length == first_length) return;
     const Message values = plural(length, "{} value", "{} values");
-    throw InvalidArgument(row ? Message("{}: row {} has {}, but row 1 has {}", label, i, values, first_length)
-                              : Message("{}: column {} has {}, but column 1 has {}", label, i, values, first_length));
+    throw InvalidArgument(
+        row ? Message("{}: row {} has {}, but row 1 has {}; all rows must have the same length", label, i, values,
+                      first_length)
+            : Message("{}: column {} has {}, but column 1 has {}; all columns must have the same length", label, i,
+                      values, first_length));
 }
 
 }  // namespace

@@ -19,8 +19,8 @@ int unknown_field(lua_State* L) {
     collect_text_keys(L, 1, names);
     std::sort(names.begin(), names.end());
     const std::string requested = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : luaL_typename(L, 2);
-    raise_error(L, Message("the data of '{}' have no variable '{}'; they have {}", lua_tostring(L, lua_upvalueindex(1)),
-                           requested, listed(names)));
+    raise_error(L, Message("the data of '{}' have no variable '{}'; the variables are {}",
+                           lua_tostring(L, lua_upvalueindex(1)), requested, listed(names)));
 }
 
 }  // namespace

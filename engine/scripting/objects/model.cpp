@@ -62,8 +62,8 @@ bool holds_model(const Call& call, int index) {
 }
 
 Message channels_hint(const Model& model) {
-    return Message("it has {} and {}: use one of its channels, {}", plural(model.inputs(), "{} input", "{} inputs"),
-                   plural(model.outputs, "{} output", "{} outputs"),
+    return Message("the model has {} and {}; use one of its channels, {}",
+                   plural(model.inputs(), "{} input", "{} inputs"), plural(model.outputs, "{} output", "{} outputs"),
                    model.outputs == 1 ? Message("G.channels[1] for the first input")
                                       : Message("G.channels[2][1] for the second output and first input"));
 }

@@ -141,9 +141,9 @@ TEST_F(field_records, sampling_time_that_contradicts_the_file_is_reported) {
     work_.write("wheel.csv", read_file(std::string(kFolder) + "wheel.csv"));
     const ScriptRun run = work_.run(
         "local d = load('wheel.csv') iddata(d.velocity, d.voltage, 0.05) iddata(d.velocity, d.voltage, 0.004)");
-    EXPECT_EQ(
-        run.printed,
-        "iddata: the sampling time is 0.05 s, but according to the time column 'time' of the file it is 0.004 s\n");
+    EXPECT_EQ(run.printed,
+              "iddata: the sampling time is 0.05 s, but according to the time column 'time' of the file it is 0.004 s; "
+              "check the argument Ts\n");
     IdentifyRequest request = of("wheel.csv", "voltage", "velocity");
     request.Ts = 0.05;
     EXPECT_THAT(identification_script(request),

@@ -108,7 +108,8 @@ std::vector<GreyParameter> parameters_argument(const Call& call, int index) {
     std::vector<GreyParameter> parameters;
     for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
         if (lua_type(L, -2) != LUA_TSTRING)
-            throw InvalidArgument("{} must be named: {k1 = {0.5, min = 0}, k2 = 1}", argument_label(2, "parameters"));
+            throw InvalidArgument("{} must have a name for each entry, as in {k1 = {0.5, min = 0}, k2 = 1}",
+                                  argument_label(2, "parameters"));
         parameters.push_back(parameter_on_top(L, lua_tostring(L, -2)));
     }
     std::sort(parameters.begin(), parameters.end(),
@@ -130,7 +131,7 @@ std::vector<std::string> states_option(const Options& options) {
     if (type != LUA_TNIL && type != LUA_TNUMBER) return options.texts("states");
     if (count < 1)
         throw InvalidArgument(
-            "the model needs at least one state: specify option 'states' (names such as {\"h1\", \"h2\"}, or a "
+            "the model needs at least one state. Specify option 'states' (names such as {\"h1\", \"h2\"}, or a "
             "number), or option 'x0' with one value per state");
     std::vector<std::string> names;
     for (lua_Integer i = 1; i <= count; ++i) names.push_back(fmt::format("x{}", i));

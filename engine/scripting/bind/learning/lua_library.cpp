@@ -74,7 +74,7 @@ FunctionLibrary lua_library(const Call& call, int index, const IdData& data, std
     const Experiment& first = data.experiments.front();
     const Index count = library.values(first.y, first.u).cols();
     if (!names.empty() && static_cast<Index>(names.size()) != count)
-        throw InvalidArgument("option 'names' has {}, but the library returns {}",
+        throw InvalidArgument("option 'names' has {}, but the library returns {}; specify one name per function",
                               plural(names.size(), "{} string", "{} strings"),
                               plural(count, "{} function", "{} functions"));
     for (Index j = static_cast<Index>(names.size()); j < count; ++j) names.push_back(fmt::format("f{}", j + 1));
