@@ -86,7 +86,7 @@ Message wrong_in_choice(const std::string& code) {
         return Message(
             "each option must start with [x] or [ ], and a separate, indented paragraph must explain why the option is "
             "correct or wrong");
-    return Message("a choice needs at least two options, including a correct one");
+    return Message("a choice needs at least two options, including a correct option");
 }
 
 /// Turns the filter's codes into sentences. Fields: [0] the sign, [1] code, [2] text to look for, [3...] details.

@@ -71,7 +71,7 @@ TEST_F(choices, are_folded_below_their_question_in_html) {
 
 TEST_F(choices, that_are_not_whole_are_reported_with_their_line) {
     const auto reported = [&](const std::string& body) { return refusal("Text.\n\n::: choice\n" + body + ":::\n"); };
-    EXPECT_THAT(reported("Why?\n\n- [ ] a\n\n  No.\n- [ ] b\n\n  No.\n"), HasSubstr("a correct one"));
+    EXPECT_THAT(reported("Why?\n\n- [ ] a\n\n  No.\n- [ ] b\n\n  No.\n"), HasSubstr("a correct option"));
     EXPECT_THAT(reported("Why?\n\n- [x] a\n- [ ] b\n"),
                 AllOf(HasSubstr(":4: "), HasSubstr("explains why the option is correct or wrong")));
     EXPECT_THAT(reported("Why?\n\n- a\n\n  No.\n- [x] b\n\n  Yes.\n"),

@@ -184,7 +184,7 @@ TEST(bad_input, data_are_checked_when_they_are_made) {
         {"iddata({1, 2}, {1}, 1)", "the output has 2 samples, but the input has 1"},
         {"iddata(nil, nil, 1)", "y and u are both nil; specify at least one of them"},
         {"iddata({}, {}, 1)", "must have rows or columns, but the table is empty"},
-        {"iddata({theta = y, t = u}, u, 1)", "the table contains t, theta: use one of these, such as data.t"},
+        {"iddata({theta = y, t = u}, u, 1)", "the table contains t, theta; use one of these entries, such as data.t"},
         {"iddata(y, u, {0, 0.1, 0.3})", "iddata(y, u, nil, {SamplingInstants = t})"},
         {"iddata(y, matrix{u, e}, 0.05, {InputName = {'a', 'a'}})", "the name 'a' is used for two channels"},
         {"iddata(y, u, 0.05, {InputName = 'a', OutputName = 'a'})", "the name 'a' is used for two channels"},
@@ -241,10 +241,10 @@ TEST(bad_input, wrong_orders_are_refused_with_their_meaning) {
         EXPECT_THAT(said(std::string(name) + "(d, {2, 4, 0}, 3)"), continuous) << name;
     for (const char* call : {"srivc(d, {4, 2, 0})", "coe(d, {4, 2, 0})", "rivc(d, {4, 0, 1, 2, 0})"})
         EXPECT_THAT(said(call), AllOf(HasSubstr("nf: poles; nk: samples of delay)"),
-                                      HasSubstr("but nb is 4; with nf = 2 it must be between 1 and 3")))
+                                      HasSubstr("but nb is 4; with nf = 2, specify a value between 1 and 3")))
             << call;
     for (const char* call : {"srivc(d, {1, 0, 0})", "coe(d, {1, 0, 0})", "rivc(d, {1, 0, 1, 0, 0})"})
-        EXPECT_THAT(said(call), HasSubstr("but nf is 0; it must be at least 1")) << call;
+        EXPECT_THAT(said(call), HasSubstr("but nf is 0; specify at least 1")) << call;
 }
 
 TEST(bad_input, delays_must_be_shorter_than_the_record) {

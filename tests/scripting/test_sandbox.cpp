@@ -84,8 +84,8 @@ TEST(sandbox, limits_printed_text) {
     RunOptions options;
     options.output_limit_bytes = 10'000;
     EXPECT_EQ(error_of("while true do print('flood') end", options),
-              "lesson.lua:1: the script printed more text than allowed; print fewer values, for example not in every "
-              "iteration of a loop");
+              "lesson.lua:1: the script printed more than the limit of 0.01 MB; "
+              "print fewer values, for example not in every iteration of a loop");
 }
 
 /// Seconds until the limit of 0.2 s of processor time stops `code`.

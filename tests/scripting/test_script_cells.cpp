@@ -181,13 +181,13 @@ TEST(script_cells, sliders_are_their_own_number_and_are_recorded) {
     EXPECT_EQ(record_from_json(to_json(record)).sliders.at("k").to, 10);
     for (const auto& [call, sentence] : std::vector<std::pair<std::string, std::string>>{
              {"slider('k', 3, 10, 1)", "the range of the slider \"k\" must increase, but it is from 10 to 1"},
-             {"slider('k', 0, 1, 2)", "the range of the slider \"k\" is 1 to 2; 0 is outside this range"},
+             {"slider('k', 0, 1, 2)", "the value of the slider \"k\" must be between 1 and 2, but it is 0"},
              {"slider('k', 1, 0, 2, {log = true})", "must start at a positive number"},
              {"slider('k', 1, 0, 2, {step = -1})", "must be greater than 0 and at most 2"},
              {"slider('k', 1, 1, 2, {log = true, step = 1})", "and cannot have a step"},
              {"slider('k', 1, 1, 2) slider('k', 1, 1, 2)", "is already used"},
              {"slider('a b', 1, 1, 2)", "is not valid: use only letters"},
-             {"slider('k', 0/0, 1, 2)", "is outside"}})
+             {"slider('k', 0/0, 1, 2)", "must be between 1 and 2"}})
         EXPECT_THAT(test::error_of(call), testing::HasSubstr(sentence)) << call;
 }
 

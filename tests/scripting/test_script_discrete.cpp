@@ -67,8 +67,8 @@ TEST(script_discrete, orders_are_explained) {
     EXPECT_EQ(
         refusal("arx(data, {2, 1})"),
         "lesson.lua:5: arx: argument 2 (orders) must be {na, nb, nk} (na: poles; nb: coefficients of B; nk: samples "
-        "of input delay, 1 for systems without direct feedthrough), but it has 2 entries");
-    EXPECT_THAT(refusal("oe(data, {2, 2, 0.5})"), HasSubstr("nk is 0.5; it must be an integer from 0 to 1000000"));
+        "of input delay, 1 for systems without direct feedthrough), but the list has 2 entries");
+    EXPECT_THAT(refusal("oe(data, {2, 2, 0.5})"), HasSubstr("nk is 0.5; specify an integer from 0 to 1000000"));
     EXPECT_THAT(refusal("sriv(data, {2, -2, 1})"), HasSubstr("nf is -2"));
     EXPECT_THAT(refusal("oe(data, {2, 'x', 1})"), HasSubstr("nf is the string \"x\""));
     EXPECT_THAT(refusal("oe(data, {2, {1, 'x'}, 1})"), HasSubstr("nf contains the string \"x\""));

@@ -317,7 +317,7 @@ TEST(script_errors, count_one_in_the_singular) {
         {data_set + "d:experiment(2)", "lesson.lua:2: experiment 2 does not exist: there is only 1"},
         {data_set + "srivc(d, {2})",
          "lesson.lua:2: srivc: argument 2 (orders) must be {nb, nf, nk} (nb: coefficients of B; nf: poles; nk: samples "
-         "of delay), but it has 1 entry"},
+         "of delay), but the list has 1 entry"},
         {data_set + "merge(d, iddata({1, 2}, matrix{{1, 2}, {2, 1}}, 1))",
          "lesson.lua:2: merge: part 2 has 1 output and 2 inputs, but the first part has 1 and 1. Select the same "
          "channels in both parts with data:select"},

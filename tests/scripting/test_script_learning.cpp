@@ -93,7 +93,7 @@ TEST(script_learning, bad_input_is_refused_in_words) {
     const auto expect = [](const std::string& code, const std::string& words) {
         EXPECT_THAT(printed(code), HasSubstr(words)) << code;
     };
-    expect(kNarxData + "narx(data, {2, 2})", "but it has 2 entries");
+    expect(kNarxData + "narx(data, {2, 2})", "but the list has 2 entries");
     expect(kNarxData + "narx(data, {2, 2, 1}, {terms = 40})", "the lags and the degree allow only 15 candidates");
     expect(kSindyData + "sindy(data, {library = 3})", "'library' must be a function(x, u)");
     expect(kSindyData + "sindy(data, {library = function(x) return 3 end})", "must return a list of vectors");

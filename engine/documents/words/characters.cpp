@@ -53,9 +53,9 @@ bool PrintableCharacters::can_print(char32_t c) const {
 std::optional<Message> PrintableCharacters::complaint(std::string_view text) const {
     while (!text.empty()) {
         const std::optional<char32_t> taken = take_character(text);
-        if (!taken) return Message("the file is not UTF-8 text; save it with UTF-8 encoding");
+        if (!taken) return Message("the file is not UTF-8 text; save the file with UTF-8 encoding");
         if (is_control(*taken))
-            return Message("the control character {} cannot be printed; remove it", code_of(*taken));
+            return Message("the control character {} cannot be printed; remove the character", code_of(*taken));
     }
     return std::nullopt;
 }

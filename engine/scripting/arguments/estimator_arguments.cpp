@@ -14,7 +14,7 @@ constexpr double kLargestOrder = 1e6;
 
 int checked_order(double value, int index, std::span<const OrderEntry> entries, const char* name) {
     if (std::floor(value) != value || value < 0 || value > kLargestOrder)
-        throw InvalidArgument("argument {} (orders) must be {}, but {} is {}; it must be an integer from 0 to 1000000",
+        throw InvalidArgument("argument {} (orders) must be {}, but {} is {}; specify an integer from 0 to 1000000",
                               index, meaning_of(entries), name, significant(value, 10));
     return static_cast<int>(value);
 }
@@ -63,10 +63,10 @@ std::vector<std::vector<int>> order_lists(const Call& call, int index, std::span
         const Message has = plural(count, "{} entry", "{} entries");
         if (count > static_cast<Index>(entries.size()) + 1)
             throw InvalidArgument(
-                "argument {} (orders) must be {}, but it has {}. With several inputs, an entry is a list with one "
-                "value per input, such as {1, 1}",
+                "argument {} (orders) must be {}, but the list has {}. With several inputs, an entry is a list with "
+                "one value per input, such as {1, 1}",
                 index, meaning_of(entries), has);
-        throw InvalidArgument("argument {} (orders) must be {}, but it has {}", index, meaning_of(entries), has);
+        throw InvalidArgument("argument {} (orders) must be {}, but the list has {}", index, meaning_of(entries), has);
     };
     std::vector<std::vector<int>> lists;
     if (index <= call.count()) {
@@ -140,14 +140,14 @@ void check_coefficients(std::span<const OrderEntry> entries, std::string_view po
                         const std::vector<int>& coefficients) {
     for (const int n : poles)
         if (n < 1)
-            throw InvalidArgument("argument {} (orders) must be {}, but {} is {}; it must be at least 1", 2,
+            throw InvalidArgument("argument {} (orders) must be {}, but {} is {}; specify at least 1", 2,
                                   meaning_of(entries), poles_name, n);
     for (std::size_t i = 0; i < coefficients.size(); ++i) {
         const int nb = coefficients[i];
         const int n = i < poles.size() ? poles[i] : poles.back();
         if (nb < 1 || nb > n + 1)
             throw InvalidArgument(
-                "argument {} (orders) must be {}, but {} is {}; with {} = {} it must be between 1 and {}", 2,
+                "argument {} (orders) must be {}, but {} is {}; with {} = {}, specify a value between 1 and {}", 2,
                 meaning_of(entries), kNb.name, nb, poles_name, n, n + 1);
     }
 }

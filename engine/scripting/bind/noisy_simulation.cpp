@@ -187,7 +187,7 @@ void require_model_sampling(double model_Ts, const InputSignals& input) {
 SimulationSpread spread_of(const Model& model, const InputSignals& input, Hold hold, Index runs, RandomStream& random) {
     if (input.Ts == 0)
         throw InvalidArgument(
-            "the input must be sampled regularly; interpolate it at equally spaced instants (interp1)");
+            "the input must be sampled regularly; interpolate the input at equally spaced instants with interp1");
     require_signal_per_input(model, input);
     if (const auto uncertain = uncertain_model(model))
         return simulation_spread(*uncertain, input.u.col(0), input.Ts, hold, runs, random);

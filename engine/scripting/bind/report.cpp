@@ -178,7 +178,7 @@ void check_range(const std::string& name, const RecordedSlider& slider) {
                               slider.to - slider.from, *slider.step);
     for (const double value : {slider.initial, slider.value})
         if (!(value >= slider.from && value <= slider.to))
-            throw InvalidArgument("the range of the slider \"{}\" is {} to {}; {} is outside this range", name,
+            throw InvalidArgument("the value of the slider \"{}\" must be between {} and {}, but it is {}", name,
                                   slider.from, slider.to, value);
 }
 

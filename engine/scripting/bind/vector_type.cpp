@@ -183,7 +183,7 @@ int combine_masks(Call& call, Function function) {
     MaskBlock &a = mask_self(call), *b = to_mask(call.state(), 2);
     if (b == nullptr) wrong_argument(call.state(), 2, "other", with_article("mask"));
     if (a.size != b->size)
-        throw InvalidArgument("the masks have {} and {} values; they must have the same length", a.size, b->size);
+        throw InvalidArgument("the masks must have the same number of elements, but have {} and {}", a.size, b->size);
     std::transform(a.data(), a.data() + a.size, b->data(), push_mask(call.state(), a.size).data(), function);
     return 1;
 }

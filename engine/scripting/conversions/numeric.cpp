@@ -82,8 +82,9 @@ void refuse_named_entries(lua_State* L, int index, const Message& label) {
     collect_text_keys(L, index, names);
     if (names.empty()) throw InvalidArgument("{} must have rows or columns, but the table is empty", label);
     std::sort(names.begin(), names.end());
-    throw InvalidArgument("{} must have rows or columns, but the table contains {}: use one of these, such as data.{}",
-                          label, listed(names), names.front());
+    throw InvalidArgument(
+        "{} must have rows or columns, but the table contains {}; use one of these entries, such as data.{}", label,
+        listed(names), names.front());
 }
 
 /// Checks that the row or column `i` on top has the length of the first.

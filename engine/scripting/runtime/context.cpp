@@ -41,8 +41,9 @@ Message stop_sentence(const RuntimeContext& context, StopReason reason) {
             return Message("the script did not finish within {} s", context.options.time->seconds(TimeLimit::kClock));
         case StopReason::kOutputLimit:
             return Message(
-                "the script printed more text than allowed; print fewer values, for example not in every iteration of "
-                "a loop");
+                "the script printed more than the limit of {}; "
+                "print fewer values, for example not in every iteration of a loop",
+                size_phrase(static_cast<double>(context.options.output_limit_bytes)));
         default:
             return Message("interrupted");
     }

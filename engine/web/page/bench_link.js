@@ -5,7 +5,7 @@ import { addWords, say, tr } from "./words.js";
 import { kept, oneWriter, storedWork, storeWork } from "./work_store.js";
 
 addWords({
-  openElsewhere: tr("the workbench is also open in another tab, which saves the session"),
+  openElsewhere: tr("the workbench is open in another tab, which saves the session; changes in this tab are not saved"),
   keepsNothing: tr("this browser does not save the session; download the script before you close the page"),
   noEngine: tr("This browser cannot run the workbench, because it does not support WebAssembly exceptions. Update the browser, or install dynlab."),
   engineLost: tr("The engine could not be loaded: check the connection and load the page again."),
