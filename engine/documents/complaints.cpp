@@ -79,7 +79,7 @@ void Complaints::throw_if_any() const {
     MessageList lines{messages_, Join::kLines};
     if (messages_.size() > kShown) {
         lines.items.resize(kShown);
-        lines.items.push_back(Message("and {} more", messages_.size() - kShown));
+        lines.items.push_back(plural(messages_.size() - kShown, "and {} more problem", "and {} more problems"));
     }
     throw DocumentError(Message("{}", lines));
 }

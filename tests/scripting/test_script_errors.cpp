@@ -313,8 +313,8 @@ TEST(script_errors, count_one_in_the_singular) {
          "lesson.lua:1: report.table: row 2 has 1 cell, but the header has 2; all rows must have the same number of "
          "cells"},
         {"local v = vector{5}\nprint(v[2])", "lesson.lua:2: v[2] does not exist: v has only the element 1"},
-        {"zeros(1, 2):row(2)", "lesson.lua:1: row 2 does not exist: there is only 1"},
-        {data_set + "d:experiment(2)", "lesson.lua:2: experiment 2 does not exist: there is only 1"},
+        {"zeros(1, 2):row(2)", "lesson.lua:1: row 2 does not exist: the only valid number is 1"},
+        {data_set + "d:experiment(2)", "lesson.lua:2: experiment 2 does not exist: the only valid number is 1"},
         {data_set + "srivc(d, {2})",
          "lesson.lua:2: srivc: argument 2 (orders) must be {nb, nf, nk} (nb: coefficients of B; nf: poles; nk: samples "
          "of delay), but the list has 1 entry"},

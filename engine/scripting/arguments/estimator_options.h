@@ -40,8 +40,8 @@ inline constexpr std::array kStartOptions = {
     option<&FitOptions::offset>(
         "Offset",
         about("constant offset of the output: zero (\"none\"), removed with the operating point before the estimation "
-              "(\"remove\"), estimated (\"estimate\"), or \"none\" or \"estimate\", whichever has the smaller BIC "
-              "(\"auto\"). If you specify only one of InitialState and Offset, the other remains \"auto\""),
+              "(\"remove\"), estimated (\"estimate\"), or the better of \"none\" and \"estimate\" by BIC (\"auto\"). "
+              "If you specify only one of InitialState and Offset, the other option remains \"auto\""),
         {.initial = "\"auto\"", .choices = kOffsets, .member = "offset"})};
 
 inline constexpr OptionEntry kTolerance = option<&FitOptions::tolerance>(

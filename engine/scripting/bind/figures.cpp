@@ -86,8 +86,8 @@ constexpr std::array kSubplotArguments = {
 constexpr std::array kSaveFigureArguments = {
     ArgumentEntry{"fig", ValueKind::kAny, about("figure")},
     ArgumentEntry{"path", ValueKind::kText,
-                  about("file name ending in .pdf, .svg, .png or .gp, in the script's folder or the output folder, or "
-                        "in a folder inside them")}};
+                  about("file name ending in .pdf, .svg, .png or .gp, in the script's folder, the output folder or one "
+                        "of their subfolders")}};
 
 /// Options of plot that hold one value for all curves or one per curve.
 struct CurveLists {

@@ -35,21 +35,21 @@ constexpr OptionTable kSaveCsvTables[] = {kSaveCsvOptions}, kSaveMatTables[] = {
 constexpr std::array kSaveCsvArguments = {
     ArgumentEntry{
         "path", ValueKind::kText,
-        about("file name ending in .csv, in the script's folder or the output folder, or in a folder inside them")},
+        about("file name ending in .csv, in the script's folder, the output folder or one of their subfolders")},
     ArgumentEntry{
         "data", ValueKind::kData,
         about("data object with one experiment, or a table of named vectors, lists of numbers and lists of strings")}};
 constexpr std::array kSaveMatArguments = {
     ArgumentEntry{
         "path", ValueKind::kText,
-        about("file name ending in .mat, in the script's folder or the output folder, or in a folder inside them")},
+        about("file name ending in .mat, in the script's folder, the output folder or one of their subfolders")},
     ArgumentEntry{"variables", ValueKind::kTable,
                   about("table of named variables: models, data objects, vectors, matrices, numbers, strings, lists of "
                         "strings, and tables of these")}};
 constexpr std::array kSaveJsonArguments = {
     ArgumentEntry{
         "path", ValueKind::kText,
-        about("file name ending in .json, in the script's folder or the output folder, or in a folder inside them")},
+        about("file name ending in .json, in the script's folder, the output folder or one of their subfolders")},
     kSaveMatArguments[1]};
 
 std::filesystem::path file_to_write(const Call& call, const char* extension) {

@@ -44,8 +44,8 @@ constexpr OptionEntry kStudyOptions[] = {
         {.maximum = kMaxSeed}),
     option<&MonteCarloStudy::threads>("threads", about("number of threads; 0 for all cores")),
     {"estimators", ValueKind::kTable,
-     about("table of estimators. The keys are labels. An entry contains the arguments that follow the data, or is a "
-           "function of the data")}};
+     about("table of estimators. Each key is a label. Each entry is a table of the arguments that follow the data, or "
+           "a function of the data")}};
 constexpr OptionTable kStudyTables[] = {kStudyOptions};
 
 MonteCarloEstimate estimate_in_study(const Fit& result) {

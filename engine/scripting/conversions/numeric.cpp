@@ -107,7 +107,7 @@ void charge_outside_bytes(lua_State* L, std::size_t bytes, const char* what) {
 
 Message numbered_from_one(Index count) {
     return count == 0   ? Message("there are none")
-           : count == 1 ? Message("there is only 1")
+           : count == 1 ? Message("the only valid number is 1")
                         : Message("the valid numbers are 1 to {}", count);
 }
 

@@ -136,7 +136,9 @@ void call_protected(lua_State* L, lua_CFunction function, const void* argument =
 Runtime::Runtime(RunOptions options, GnuplotRenderer& renderer)
     : context_(std::make_unique<RuntimeContext>(std::move(options), renderer)) {
     lua_State* L = lua_newstate(MemoryAccount::allocate, &context_->memory);
-    if (L == nullptr) throw InvalidArgument("the memory limit of the script is too small to start the script");
+    if (L == nullptr)
+        throw InvalidArgument("the memory limit of {} is too small to start a script; increase the limit",
+                              size_phrase(static_cast<double>(context_->memory.limit())));
     context_->main = L;
     *static_cast<RuntimeContext**>(lua_getextraspace(L)) = context_.get();
     context_->memory.on_refusal = [context = context_.get()] {

@@ -33,7 +33,7 @@ TEST(document_error, of_many_complaints_has_the_first_ten_a_line_each) {
         complaints.throw_if_any();
         FAIL();
     } catch (const DocumentError& error) {
-        EXPECT_EQ(error.what(), expected + "and 2 more");
+        EXPECT_EQ(error.what(), expected + "and 2 more problems");
     }
 }
 

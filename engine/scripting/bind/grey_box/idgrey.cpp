@@ -21,8 +21,8 @@ constexpr std::array kIdgreyOptions = {
                 {.member = "outputs"}},
     OptionEntry{"x0",
                 ValueKind::kAny,
-                about("initial state: for each state a number, a parameter name or \"estimate\"; one such value for "
-                      "all states; or function(p) that returns a table. By default, zero"),
+                about("initial state: a number, a parameter name or \"estimate\" for each state, or one of these "
+                      "values for all states; or function(p) that returns a table. By default, zero"),
                 {.initial = "0"}},
     OptionEntry{"inputs", ValueKind::kCount,
                 about("number of inputs; required if the function is not symbolic and the model does not have exactly "
