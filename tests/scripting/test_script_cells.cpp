@@ -184,7 +184,7 @@ TEST(script_cells, sliders_are_their_own_number_and_are_recorded) {
              {"slider('k', 0, 1, 2)", "the value of the slider \"k\" must be between 1 and 2, but it is 0"},
              {"slider('k', 1, 0, 2, {log = true})", "must start at a positive number"},
              {"slider('k', 1, 0, 2, {step = -1})", "must be greater than 0 and at most 2"},
-             {"slider('k', 1, 1, 2, {log = true, step = 1})", "and cannot have a step"},
+             {"slider('k', 1, 1, 2, {log = true, step = 1})", "cannot have both log = true and a step"},
              {"slider('k', 1, 1, 2) slider('k', 1, 1, 2)", "is already used"},
              {"slider('a b', 1, 1, 2)", "is not valid: use only letters"},
              {"slider('k', 0/0, 1, 2)", "must be between 1 and 2"}})

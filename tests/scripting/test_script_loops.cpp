@@ -51,7 +51,7 @@ TEST(script_loops, four_routes) {
     EXPECT_THAT(error_of(kLoop + "clsrivc(data, {1, 2, 0}, {controller = 'C'})"),
                 HasSubstr("the controller must be a model"));
     EXPECT_THAT(error_of(kLoop + "clivsvf(data, {2, 1, 0}, 4, {ComputingDelay = 1})"),
-                HasSubstr("requires the option 'controller'"));
+                HasSubstr("requires option 'controller'"));
     EXPECT_THAT(error_of(kLoop + "simloop(G0, 100, r, Ts) simloop(tf({1}, {1, -1}), 0.5, r, Ts)"),
                 HasSubstr("the loop is unstable"));
 }

@@ -202,8 +202,9 @@ StartedStructure started_structure(const Call& call, const Options& options, con
     }
     for (const char* name : {"IODelay", "Td0"})
         if (options.has(name))
-            throw InvalidArgument("option '{}' cannot be combined with a start model, which already includes a delay",
-                                  name);
+            throw InvalidArgument(
+                "option '{}' cannot be combined with a start model, which already includes a delay; omit the option",
+                name);
     SearchAids aids;
     const auto outputs = static_cast<Index>(object_argument<Model>(call, 2, Message("start model")).outputs);
     const auto structure =

@@ -29,7 +29,8 @@ LoopKnowledge loop_knowledge(const Options& options) {
     if (!options.has("controller")) {
         if (options.has("ComputingDelay"))
             throw InvalidArgument(
-                "option 'ComputingDelay' is the delay of the controller and requires the option 'controller'");
+                "option 'ComputingDelay', the delay of the controller, requires option 'controller'; specify "
+                "'controller', or omit 'ComputingDelay'");
         return known;
     }
     known.controller = controller_at(options.call(), options.push("controller"));

@@ -310,7 +310,8 @@ int make_iddata(Call& call) {
     report_time_unit(call, data.time_unit);
     if (options.has("Tstart") && options.has("SamplingInstants"))
         throw InvalidArgument(
-            "option 'Tstart' cannot be combined with 'SamplingInstants', which include the first instant");
+            "option 'Tstart' cannot be combined with 'SamplingInstants', which include the first instant; "
+            "omit 'Tstart'");
     data.experiments.front().start_time = options.number("Tstart", data.experiments.front().start_time);
     if (!std::isfinite(data.experiments.front().start_time))
         throw InvalidArgument("option 'Tstart' must be a finite number, but {} was given",

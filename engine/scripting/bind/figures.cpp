@@ -269,7 +269,8 @@ int subplot(Call& call) {
     figure.rows = count_in_grid(call.size(1, "rows"));
     figure.columns = count_in_grid(call.size(2, "columns"));
     if (call.type(3) != LUA_TTABLE)
-        throw InvalidArgument("the figures must be a list: subplot(2, 1, {figure1, figure2})");
+        throw InvalidArgument("the figures must be a list, as in subplot(2, 1, {figure1, figure2}), but {} was given",
+                              given_value(L, 3));
     for (lua_Integer i = 1; lua_rawgeti(L, 3, i) != LUA_TNIL; lua_pop(L, 1), ++i) {
         const FigurePointer* part = to_object<FigurePointer>(L, -1);
         if (part == nullptr)

@@ -104,7 +104,8 @@ std::vector<double> delays_of(const Options& options, const IdData& data) {
     const Vector samples = single ? Vector::Constant(1, options.number("delays", 0)) : Vector(options.vector("delays"));
     if (!data.regular())
         throw InvalidArgument(
-            "option 'delays' requires regularly sampled data, because the delays are numbers of samples");
+            "option 'delays' requires regularly sampled data, because the delays are numbers of samples; specify "
+            "option 'TdMax' instead");
     std::vector<double> delays;
     for (const double k : samples) {
         if (k < 0 || k != std::floor(k))

@@ -190,7 +190,9 @@ int detrend_signals(Call& call) {
         throw InvalidArgument("{} must be {}, but \"{}\" was given", Message("the kind of trend"),
                               Message("\"linear\", \"mean\" or \"start\""), kind);
     if (options.has("samples"))
-        throw InvalidArgument("option 'samples', the number of samples before the step, requires the kind \"start\"");
+        throw InvalidArgument(
+            "option 'samples', the number of samples before the step, requires the kind \"start\"; specify \"start\", "
+            "or omit 'samples'");
     return give_signals(call, signals,
                         detrend(signals.data, kind == "linear" ? TrendKind::kLinear : TrendKind::kConstant));
 }

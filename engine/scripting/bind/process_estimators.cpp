@@ -58,8 +58,10 @@ int draw_construction(Call& call) {
     const Options options(call, 2, kConstruction);
     const Model model = model_argument(call, 1, "G");
     if (!model.estimate || !model.estimate->step_test)
-        throw InvalidArgument("{} must be a model returned by step_first_order, step_second_order or step_delayed",
-                              argument_label(1, "G"));
+        throw InvalidArgument(
+            "{} must be a model returned by step_first_order, step_second_order or step_delayed, "
+            "but another model was given",
+            argument_label(1, "G"));
     const StepTestResult& test = *model.estimate->step_test;
     StepConstruction construction;
     construction.t = test.step_data.t;

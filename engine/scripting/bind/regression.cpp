@@ -184,7 +184,9 @@ int draw_regression(Call& call) {
     call.at_most(4);
     const Options options(call, 4, kRegressionPlotTables);
     const RegressionFit& fit = object_argument<RegressionFit>(call, 3, "fit");
-    if (!fit.polynomial) throw InvalidArgument("{} must be a result of polyfit_report", argument_label(3, "fit"));
+    if (!fit.polynomial)
+        throw InvalidArgument("{} must be a result of polyfit_report, but a result of lsq was given",
+                              argument_label(3, "fit"));
     RegressionPicture picture;
     picture.x = call.vector(1, "x");
     picture.y = call.vector(2, "y");

@@ -194,7 +194,8 @@ int slider(Call& call) {
     slider.label = name;
     Options(call, 5, kSliderTables).read(slider);
     if (slider.step && slider.logarithmic)
-        throw InvalidArgument("the slider \"{}\" has log = true and cannot have a step", name);
+        throw InvalidArgument("the slider \"{}\" cannot have both log = true and a step; omit one of these options",
+                              name);
     const SliderValues* const given = call.context().services.sliders;
     const SliderValues values = given != nullptr ? *given : SliderValues();
     const auto found = values.chosen.find(name);

@@ -212,7 +212,8 @@ void read_excitation(const Options& options, MonteCarloStudy& study) {
     if (options.has(other))
         throw InvalidArgument(
             loop ? Message("in a closed loop, controller and reference determine the input; omit option 'input'")
-                 : Message("option 'reference' applies only to a closed loop and requires the option 'controller'"));
+                 : Message("option 'reference' applies only to a closed loop; specify option 'controller', "
+                           "or omit 'reference'"));
     if (!options.has(name)) throw InvalidArgument("option '{}' is missing; specify the samples of the {}", name, name);
     study.u = options.vector(name);
     if (!loop) return;

@@ -109,7 +109,8 @@ FunctionLibrary library_option(const Call& call, const Options& options, const I
     const bool own = options.has("library");
     if (own && options.has("degree"))
         throw InvalidArgument(
-            "options 'library' and 'degree' cannot be combined: 'degree' applies only to polynomials");
+            "options 'library' and 'degree' cannot be combined, because 'degree' applies only to polynomials; omit one "
+            "of these options");
     if (!own && options.has("names"))
         throw InvalidArgument("option 'names' requires option 'library'; specify 'library', or omit 'names'");
     if (!own)
