@@ -249,12 +249,15 @@ class Sentences {
         }
         if (std::find(labels.begin(), labels.end(), label) != labels.end())
             return Message(
-                "the cross-reference @{} has no target: the label {#{}} does not belong to an element that is shown",
+                "the cross-reference @{} has no target: the label {#{}} does not belong to an element that is shown. "
+                "Put the label on a figure, table, formula or heading",
                 label, label);
         if (const auto near = nearest_word(label, labels))
             return Message("the cross-reference @{} has no target: {#{}} is missing; did you mean \"{}\"?", label,
                            label, *near);
-        return Message("the cross-reference @{} has no target: {#{}} is missing", label, label);
+        return Message(
+            "the cross-reference @{} has no target: add the label {#{}} to a figure, table, formula or heading", label,
+            label);
     }
 
     static Message unknown_class(const std::string& code, const std::string& name, const std::string& text) {

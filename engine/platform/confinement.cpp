@@ -107,7 +107,7 @@ void confine_process(const ProcessLimits& limits) {
 
 void hide_memory() {
     if (::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0) != 0)
-        throw EnvironmentError("cannot hide the memory of a process: {}", system_reason(errno));
+        throw EnvironmentError("cannot protect the memory of a process from other processes: {}", system_reason(errno));
 }
 
 void refuse_harmful_calls() {

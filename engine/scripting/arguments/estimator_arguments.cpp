@@ -156,7 +156,8 @@ std::vector<double> delays_of(const std::vector<int>& samples, const IdData& dat
     std::vector<double> delays;
     for (const int nk : samples) {
         if (nk > 0 && !data.regular())
-            throw InvalidArgument("nk is a delay in samples, which is undefined for irregularly sampled data: use 0");
+            throw InvalidArgument(
+                "nk is a delay in samples, which is undefined for irregularly sampled data; specify nk = 0");
         delays.push_back(nk * data.Ts);
     }
     return delays;

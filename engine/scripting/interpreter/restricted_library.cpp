@@ -27,7 +27,7 @@ int call_with_checked_length(lua_State* L) {
     if (luaL_getmetafield(L, 1, "__len") != LUA_TNIL) {
         lua_pop(L, 1);
         if (luaL_len(L, 1) > kMaxTableLength)
-            raise_error(L, Message("the table reports more elements than fit in memory"));
+            raise_error(L, Message("the field __len of the table returns more elements than a table can have"));
     }
     return call_original(L);
 }

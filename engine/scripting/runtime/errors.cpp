@@ -160,7 +160,8 @@ Message plain_sentence(const std::string& text) {
     if (auto type = between(text, "attempt to perform bitwise operation on a ", " value"))
         return with_advice(
             Message("{} is {}, so the operators & | ~ << >> do not support it", subject(text), what_it_is(*type)),
-            *type == "boolean" ? Message("for logical values, write not x, x and y, x or y") : Message());
+            *type == "boolean" ? Message("for logical values, use the operators not, and, or: not x, x and y, x or y")
+                               : Message());
     if (auto type = between(text, "attempt to concatenate a ", " value"))
         return Message("{} is {}, so the operator .. cannot join it to a string; use tostring(x)", subject(text),
                        what_it_is(*type));

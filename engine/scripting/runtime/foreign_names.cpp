@@ -116,7 +116,7 @@ const auto& name_hints() {
         {"int32", Message("write round(x)")},
         {"isa", Message("write type(x)")},
         {"iscell", Message("write type(x) == \"table\"")},
-        {"isfield", Message("a missing field is nil: t.name == nil")},
+        {"isfield", Message("write t.name ~= nil; a missing field is nil")},
         {"isnumeric", Message("write type(x) == \"number\"")},
         {"keyboard",
          Message("write print(x); to inspect the script's variables at the prompt, run: dynlab run -i FILE")},

@@ -81,10 +81,11 @@ int simulate_loop(Call& call) {
     IdData data = ClosedLoop(plant, controller, call.number(4, "Ts"), hold).simulate(r, noise);
     if (!controller.sampled())
         call.print(
-            localized(call,
-                      Message("simloop: with a continuous-time controller, u changes between the samples, but the data "
-                              "contain it only at the samples. This biases models estimated from them. A controller "
-                              "with the sampling time Ts holds u between the samples, so its data are exact.")) +
+            localized(
+                call,
+                Message("simloop: with a continuous-time controller, u changes between the samples, but the data "
+                        "contain u only at the samples. Models estimated from these data are biased. A controller with "
+                        "the sampling time Ts holds u between the samples, so the data are exact.")) +
             "\n");
     const Vector x = data.experiments.front().y.col(0) - noise;
     return give_data(call, std::move(data)) + call.give_vector(x);

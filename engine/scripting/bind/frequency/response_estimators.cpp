@@ -33,8 +33,8 @@ TransferStructure ordered_structure(const Call& call, const FrequencyData& respo
     const bool delayed = std::any_of(orders[2].begin(), orders[2].end(), [](int nk) { return nk > 0; });
     if (delayed && response.Ts == 0)
         throw InvalidArgument(
-            "nk is a delay in samples, which is undefined for a response without Ts: use 0, or tfsrivc with IODelay in "
-            "seconds");
+            "nk is a delay in samples, which is undefined for a response without Ts; specify nk = 0, or use tfsrivc "
+            "with IODelay in seconds");
     return structure_of_orders(entries, orders, Denominators::kPerOutput)(channels_of(response));
 }
 

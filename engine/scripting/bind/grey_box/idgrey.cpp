@@ -52,8 +52,8 @@ bool comes_before(const std::string& a, const std::string& b) {
 double number_field(lua_State* L, const std::string& name, const char* field, double fallback) {
     const int type = lua_getfield(L, -1, field);
     if (type != LUA_TNIL && type != LUA_TNUMBER)
-        throw InvalidArgument("'{}' of the parameter {} must be {}, but {} was given", field, name, Message("a number"),
-                              given_value(L, -1));
+        throw InvalidArgument("the field '{}' of the parameter {} must be {}, but {} was given", field, name,
+                              Message("a number"), given_value(L, -1));
     const double value = type == LUA_TNIL ? fallback : lua_tonumber(L, -1);
     lua_pop(L, 1);
     return value;
@@ -62,7 +62,7 @@ double number_field(lua_State* L, const std::string& name, const char* field, do
 bool fixed_field(lua_State* L, const std::string& name) {
     const int type = lua_getfield(L, -1, "fixed");
     if (type != LUA_TNIL && type != LUA_TBOOLEAN)
-        throw InvalidArgument("'{}' of the parameter {} must be {}, but {} was given", "fixed", name,
+        throw InvalidArgument("the field '{}' of the parameter {} must be {}, but {} was given", "fixed", name,
                               Message("true or false"), given_value(L, -1));
     const bool value = lua_toboolean(L, -1) != 0;
     lua_pop(L, 1);
