@@ -249,8 +249,8 @@ class Sentences {
         }
         if (std::find(labels.begin(), labels.end(), label) != labels.end())
             return Message(
-                "the cross-reference @{} has no target: the label {#{}} does not belong to an element that is shown. "
-                "Put the label on a figure, table, formula or heading",
+                "the cross-reference @{} has no target: the label {#{}} does not belong to an element that is shown; "
+                "show the element, or remove the reference",
                 label, label);
         if (const auto near = nearest_word(label, labels))
             return Message("the cross-reference @{} has no target: {#{}} is missing; did you mean \"{}\"?", label,
