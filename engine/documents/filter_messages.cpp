@@ -211,7 +211,7 @@ class Sentences {
         if (const auto near = nearest_word(name, names))
             return Message("the script reported no {} \"{}\"; did you mean \"{}\"?", noun, name, *near);
         if (names.empty())
-            return Message("the script reported no {} \"{}\" (it reported no {} at all)", noun, name, noun);
+            return Message("the script reported no {} \"{}\"; add a call of report.{} to the script", noun, name, kind);
         return Message("the script reported no {} \"{}\"; it reported {}", noun, name, listed(names));
     }
 
@@ -276,7 +276,7 @@ class Sentences {
         }
         if (code == "code-class")
             return Message("the slot `{}`{.{}} has an unknown class; write a value as `{}`{.value}", text, name, text);
-        if (code == "block-class") return Message("unknown language \"{}\" of a code block", name);
+        if (code == "block-class") return Message("unknown language \"{}\" of a code block; omit the language", name);
         if (code == "span-class")
             return Message("unknown class \"{}\" of bracketed text; write the text without the class", name);
         return Message("the document filter reports an unknown problem: {} {}", code, name);
