@@ -44,7 +44,7 @@ constexpr std::array kSliderArguments = {
     ArgumentEntry{"from", ValueKind::kNumber, about("smallest number; positive if `log` is true")},
     ArgumentEntry{"to", ValueKind::kNumber, about("largest number")}};
 constexpr std::array kPredictionArguments = {
-    ArgumentEntry{"name", ValueKind::kText, about("name of the prediction, for `outcome`; use each name only once")},
+    ArgumentEntry{"name", ValueKind::kText, about("name of the prediction, for `reveal`; use each name only once")},
     ArgumentEntry{"value", ValueKind::kNumber, about("your prediction, or nil if you have none yet")},
     ArgumentEntry{"unit", ValueKind::kText, about("unit after the numbers")}};
 constexpr std::array kRevealArguments = {
