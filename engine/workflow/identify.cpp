@@ -199,19 +199,20 @@ void IdentifyRequest::validate() const {
         throw InvalidArgument("the number of zeros must be from 0 to the number of poles, but it is {}", *zeros);
     if (!poles && inputs.size() > 1)
         throw InvalidArgument(
-            "the number of poles can be determined automatically for one input only; for several inputs, specify the "
-            "number");
+            "--poles auto supports only one input, but {} inputs were given; specify the number of poles",
+            inputs.size());
     if (!poles && zeros && *zeros > 3)
         throw InvalidArgument(
-            "if the number of poles is determined automatically, the number of zeros must be at most 3; specify the "
-            "number of poles");
+            "with --poles auto, the number of zeros must be at most 3, but it is {}; specify the number of poles",
+            *zeros);
     if (!poles && delay && *delay > 0)
         throw InvalidArgument(
-            "the number of poles can be determined automatically only without delay or with an estimated delay; "
-            "specify the number, or set the delay to auto");
+            "--poles auto requires --delay 0 or --delay auto, but the delay is {} s; specify the number of poles, or "
+            "change the delay",
+            *delay);
     if (delay && !(std::isfinite(*delay) && *delay >= 0))
         throw InvalidArgument("the delay must be nonnegative, but it is {} s", *delay);
-    if (Ts && !time.empty()) throw InvalidArgument("give either Ts or the time column, not both");
+    if (Ts && !time.empty()) throw InvalidArgument("give either --Ts or --time, not both");
     if (Ts && !(std::isfinite(*Ts) && *Ts > 0)) throw InvalidArgument("Ts must be positive, but it is {} s", *Ts);
 }
 

@@ -141,7 +141,7 @@ TEST(notebook, other_files_are_refused_with_a_reason) {
     EXPECT_THAT(refusal(R"({"nbformat": 4, "cells": 7})"), HasSubstr("no list of cells"));
     EXPECT_THAT(refusal(notebook_with(json::array()).dump()), HasSubstr("has no cells"));
     EXPECT_THAT(refusal(notebook_with({cell("code", ""), cell("video", "")}).dump()),
-                HasSubstr("cell 2 is neither code nor text"));
+                HasSubstr("cell 2 has the type \"video\""));
     json python = notebook_with({cell("code", "import os")});
     python["metadata"]["language_info"]["name"] = "python";
     EXPECT_THAT(refusal(python.dump()), HasSubstr("the notebook uses python; dynlab runs only Lua"));

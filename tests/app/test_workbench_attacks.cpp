@@ -222,10 +222,11 @@ TEST_F(workbench_attacks, what_is_refused_is_reported_in_the_script_s_language) 
         expect(409, stops);
     };
     write("english.lua", mistake);
-    refuses("english.lua", "This script is not allowed to run yet. Allow it on the page.",
+    refuses("english.lua", "This script is not allowed to run yet. Press \"Run it\" on the page.",
             "unknown function or variable", "A report cannot be created from a script with an error: ");
     write("french.lua", "-- ---\n-- language: fr\n-- ---\n\n" + mistake);
-    refuses("french.lua", "Ce script n'a pas encore le droit d'être exécuté\u202f: donnez-le-lui sur la page.",
+    refuses("french.lua",
+            "Ce script n'a pas encore le droit d'être exécuté. Cliquez sur «\u00A0L'exécuter\u00A0» dans la page.",
             "fonction ou variable inconnue", "Un rapport ne peut pas être fait à partir d'un script");
 }
 

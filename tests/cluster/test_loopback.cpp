@@ -115,7 +115,7 @@ TEST_F(loopback, slurm_gives_what_one_process_gives_and_grades_nothing_twice) {
     EXPECT_THAT(submitted.output, AllOf(HasSubstr("squeue --jobs="), HasSubstr("scancel ")));
     const ChildResult again = grade("shared", "--on slurm:tasks=3", slurm.environment());
     EXPECT_EQ(again.exit_code, 1);
-    EXPECT_THAT(again.error_output, HasSubstr("are still running"));
+    EXPECT_THAT(again.error_output, HasSubstr("are still queued or running"));
     wait_for_slurm(slurm);
     expect_equal_results(work(), "alone", "shared");
     EXPECT_EQ(graded_by_parts(), kClass);

@@ -104,7 +104,8 @@ TEST(course_marks, wrong_scores_are_refused_with_their_line) {
         EXPECT_THAT(result.error_output, HasSubstr(message));
         EXPECT_EQ(bench.dump(), before) << csv;
     };
-    refused("group,data\ngroup-01,3\n", "s.csv, line 1: no column is named reviewer");
+    refused("group,data\ngroup-01,3\n",
+            "s.csv, line 1: a column named reviewer is required; the columns are group, data");
     refused("reviewer,report,beauty\ngroup-01,report-1,3\n",
             "s.csv, line 1: unknown columns: beauty; the criteria of crane are data, steps, conclusions, strength, "
             "suggestions");
@@ -142,7 +143,8 @@ TEST(course_marks, of_a_talk_come_from_the_sheet_of_the_oral) {
                                                   {"review", "release", "talk"},
                                                   {"mark", "talk", "group-01", "reviews", "80", "--reason", "x"}})
         EXPECT_THAT(bench.course(words).error_output, HasSubstr("talk is a talk and has no reviews"));
-    EXPECT_THAT(bench.course({"scores", "--sheet", "crane"}).error_output, HasSubstr("crane is a report: "));
+    EXPECT_THAT(bench.course({"scores", "--sheet", "crane"}).error_output,
+                HasSubstr("only for talks, but crane is a report. "));
     EXPECT_EQ(bench.course({"scores", "--sheet", "talk"}).output,
               "group,content,figures,answers,comment\r\ngroup-01,,,,\r\ngroup-02,,,,\r\ngroup-03,,,,\r\n");
     bench.bench().write("oral.csv", "group,content,figures,answers\ngroup-01,8,5,3\ngroup-02,10,,\n");
@@ -263,10 +265,11 @@ TEST(course_marks, students_have_points_of_their_own_at_the_oral) {
     EXPECT_EQ(mark_of("s2"), "60");
     const std::string before = bench.dump();
     EXPECT_THAT(read("group,student,content\ngroup-02,s2,3\n").error_output,
-                HasSubstr("oral.csv, line 2: s2 is in group-01, not in group-02"));
+                HasSubstr("oral.csv, line 2: the student s2 is in group-01, not in group-02"));
     EXPECT_THAT(read("student,content\ns1,3\ns33,3\n").error_output,
                 HasSubstr("oral.csv, line 3: unknown student \"s33\"; did you mean s3?"));
-    EXPECT_THAT(read("content\n3\n").error_output, HasSubstr("no column is named group or student"));
+    EXPECT_THAT(read("content\n3\n").error_output,
+                HasSubstr("a column named group or student is required; the columns are content"));
     EXPECT_THAT(read("group,content\ngroup-01,x\n").error_output,
                 HasSubstr("content must be a number from 0 to 5, but \"x\" was given"));
     EXPECT_EQ(bench.dump(), before);

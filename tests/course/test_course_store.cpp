@@ -265,7 +265,7 @@ TEST(course_store, refuses_other_versions_of_the_store) {
         HasSubstr("x/course.db: the file is not the database of a course; create a course with dynlab course init"));
     bench.bench().shell("mkdir y && echo 'no database at all, but long enough to be read' > y/course.db");
     EXPECT_THAT(bench.bench().dynlab({"course", "--course", "y", "status"}).error_output, HasSubstr("not a database"));
-    EXPECT_THAT(bench.bench().dynlab({"course", "init", "k"}).error_output, HasSubstr("newer dynlab"));
+    EXPECT_THAT(bench.bench().dynlab({"course", "init", "k"}).error_output, HasSubstr("install the newer version"));
     EXPECT_THAT(bench.bench().dynlab({"course", "status"}).error_output, HasSubstr("no course was found in"));
 }
 

@@ -67,7 +67,7 @@ TEST(gradebook_memory, marks_of_two_kinds_are_never_mixed) {
     EXPECT_EQ(waiting.exit_code, 1);
     EXPECT_THAT(waiting.output,
                 AllOf(HasSubstr("2 late:\n  \"a\" is late by "), HasSubstr("2 notes need attention:"),
-                      HasSubstr("a penalty of 100 % is not applied yet; confirm it with --accept-late")));
+                      HasSubstr("the penalty of 100 % is not applied yet. Confirm the penalty with --accept-late")));
     EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr(",a,graded,5,5,0,"));
     std::vector<std::string> accepted = all;
     accepted.push_back("--accept-late");
@@ -230,7 +230,7 @@ TEST(gradebook_memory, unmatched_work_is_reported_and_a_list_assigns_it) {
                "a;1;j@x;group-1\nZo\xEB;Ade;2;;group-2\nBen;Lee;3;;group-3\n");
     const ChildResult graded = bench.grade({"--roster", "roster.csv"});
     EXPECT_EQ(graded.exit_code, 1);
-    EXPECT_THAT(graded.error_output, HasSubstr("roster.csv is not UTF-8; dynlab read it as Windows-1252"));
+    EXPECT_THAT(graded.error_output, HasSubstr("roster.csv is not UTF-8, so dynlab read the file as Windows-1252"));
     EXPECT_THAT(graded.output,
                 AllOf(HasSubstr("\"my work\" matches no student in the roster: the name matches no group"),
                       HasSubstr("\"Ben Lee\" and \"group-2\" are identical byte for byte")));

@@ -90,7 +90,7 @@ TEST_F(platform_sheet, a_number_of_a_single_row_is_no_maximum) {
     moodle.set_grade(moodle.people().at(0), "9");
     EXPECT_THAT(moodle.text(), HasSubstr("12,Ada L,1001,9,10.00\n"));
     EXPECT_THAT(refusal("Αναγνωριστικό,Όνομα,Αριθμός,Βαθμός,Μέγιστος\nΣυμμετέχων 12,Ada L,1001,7,10.00\n"),
-                HasSubstr("the grade column is not recognized"));
+                HasSubstr("a column for grades, such as \"Grade\", is required"));
 }
 
 TEST_F(platform_sheet, canvas_fills_the_column_of_the_assignment) {
@@ -111,7 +111,8 @@ TEST_F(platform_sheet, canvas_fills_the_column_of_the_assignment) {
 
 TEST_F(platform_sheet, what_is_not_recognized_is_named) {
     EXPECT_THAT(refusal("group,mark\n1,2\n"), AllOf(HasSubstr("expected Moodle's"), HasSubstr("group, mark")));
-    EXPECT_THAT(refusal("Identifier,Status\nParticipant 1,x\n"), HasSubstr("the grade column is not recognized"));
+    EXPECT_THAT(refusal("Identifier,Status\nParticipant 1,x\n"),
+                HasSubstr("a column for grades, such as \"Grade\", is required; the columns are Identifier, Status"));
     EXPECT_THAT(refusal(""), HasSubstr("the file is empty"));
     EXPECT_THAT(refusal("Identifier,\"Grade\nParticipant 1,2\n"), HasSubstr("quotation mark is not closed"));
 }

@@ -96,7 +96,10 @@ BackgroundWork::Made BackgroundWork::make(std::vector<std::string> command) {
     try {
         const ChildResult result = run_child(child, "dynlab");
         CommandMessages said = read_command_messages(messages);
-        if (result.timed_out) said.complaints.push_back(Message("dynlab stopped the operation after ten minutes"));
+        if (result.timed_out)
+            said.complaints.push_back(
+                Message("dynlab stopped the operation after ten minutes. Shorten the computation, or run dynlab report "
+                        "and dynlab pack in a terminal"));
         made = {result.exit_code == 0,
                 said.empty() ? Message::verbatim(result.output + result.error_output) : said.all()};
     } catch (const std::exception& error) {
@@ -192,7 +195,10 @@ BackgroundWork::Pdf BackgroundWork::made_pdf(const std::map<std::string, double>
     try {
         const ChildResult made = run_child(child, "dynlab");
         if (fs::exists(file)) return {read_file(file), {}};
-        if (made.timed_out) return {{}, Message("dynlab stopped creating the PDF after ten minutes")};
+        if (made.timed_out)
+            return {{},
+                    Message("dynlab stopped creating the PDF after ten minutes. Shorten the computation, or run dynlab "
+                            "report in a terminal")};
         const CommandMessages said = read_command_messages(messages);
         return {{}, said.empty() ? Message::verbatim(made.error_output) : said.all()};
     } catch (const std::exception& error) {

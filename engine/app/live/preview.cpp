@@ -89,8 +89,8 @@ DYNLAB_DESCRIBE(MadeReply, done, words)
 
 PageReply not_allowed(const LivePage& page) {
     constexpr int kForbidden = 403;
-    return {page.translated(Message("This document is not allowed to run yet. Allow it on the page.")), kPlainText,
-            kForbidden};
+    return {page.translated(Message("This document is not allowed to run yet. Press \"Run it\" on the page.")),
+            kPlainText, kForbidden};
 }
 
 /// Serves the PDF made in the background, and creates the files for submission on request.

@@ -64,7 +64,8 @@ void refuse_foreign_file(const std::string& word) {
     const std::filesystem::path file = word.substr(name.size());
     const std::string last = file.filename().string();
     if (file.parent_path() != kExchangeFolder || last.empty() || last.starts_with('.'))
-        throw EnvironmentError("this page can read and write only files in {}", kExchangeFolder);
+        throw EnvironmentError("this page can read and write only files in {}, not \"{}\"", kExchangeFolder,
+                               file.string());
 }
 
 }  // namespace
@@ -88,7 +89,8 @@ OfficeCommand office_command(const Words& words) {
         if (word.size() > kMaxBytes || word.empty() || terminal_text(word) != word ||
             word.find_first_of("\n\t") != word.npos)
             throw EnvironmentError(
-                "each argument of a command must have 1 to {} bytes and must not contain control characters",
+                "the command was not run: each value must have 1 to {} bytes, without line breaks or other control "
+                "characters",
                 kMaxBytes);
         if (word.starts_with('-')) {
             const std::string name = name_of_option(word);
@@ -103,7 +105,8 @@ OfficeCommand office_command(const Words& words) {
         command.line += " " + shell_word(word);
     }
     if (!allowed->needed.empty() && !given.contains(allowed->needed))
-        throw EnvironmentError("on this page, the command requires the option {}", allowed->needed);
+        throw EnvironmentError("on this page, the command \"{}\" requires the option {}", "course " + words[1],
+                               allowed->needed);
     return command;
 }
 

@@ -208,14 +208,15 @@ std::string OfficeViews::answer(const std::string& assignment, const std::string
     for (const SubmittedWork& work : work_of(lab))
         if (answer_name(course_, lab, work.group) == name)
             return answers_.answers({work}, lesson, lesson.question(question), students_of(course_)).front().text;
-    throw EnvironmentError("the assignment {} has no answers named \"{}\"", assignment, name);
+    throw EnvironmentError("the assignment {} has no submission named \"{}\"; reload the page", assignment, name);
 }
 
 std::string OfficeViews::entry(const std::string& assignment, const std::string& name, const std::string& check) {
     const std::lock_guard lock(mutex_);
     const Assignment lab = assignment_named(course_, assignment);
     const std::optional<Group> group = group_of_answers(course_, lab, name);
-    if (!group) throw EnvironmentError("the assignment {} has no answers named \"{}\"", assignment, name);
+    if (!group)
+        throw EnvironmentError("the assignment {} has no submission named \"{}\"; reload the page", assignment, name);
     return json_of(shown_entry(newest_entries(course_, lab, check)[group->id]));
 }
 

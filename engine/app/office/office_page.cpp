@@ -45,7 +45,9 @@ std::string parameter_or(const PageRequest& asked, const std::string& name) {
 /// A file that commands of the page read or write.
 fs::path exchanged_file(const fs::path& course, const std::string& name) {
     if (name.empty() || name.starts_with('.') || fs::path(name).filename() != name)
-        throw EnvironmentError("\"{}\" is not a valid file name on this page", name);
+        throw EnvironmentError(
+            "a file name on this page must not be empty, start with a period or contain a folder, but \"{}\" was given",
+            name);
     return course / kExchangeFolder / name;
 }
 

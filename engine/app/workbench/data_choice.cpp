@@ -197,8 +197,9 @@ DataChoice describe_data(const std::string& data, bool with_summary) {
 std::string loading_lines(const DataSelection& order) {
     if (!is_variable_name(order.name))
         throw EnvironmentError(
-            "the name of a data set must consist of letters, digits and _. It must not start with a digit or be a Lua "
-            "keyword, such as end");
+            "\"{}\" is not a valid name for a data set: use only letters, digits and _. The name must not start with a "
+            "digit or be a Lua keyword, such as end",
+            order.name);
     if (order.inputs.empty() || order.outputs.empty())
         throw EnvironmentError("a data set needs at least one input and one output");
     const auto time_unit = order.units.find(order.time);
@@ -226,8 +227,9 @@ DataSelection suggested_order(const DataChoice& choice) {
         if (column.role == "time") order.time = column.name;
     }
     if (order.inputs.empty() || order.outputs.empty())
-        throw EnvironmentError("{} must contain at least two signals of equal length that are not constant",
-                               choice.data);
+        throw EnvironmentError(
+            "{} must contain at least two signals of equal length, an input and an output, in addition to the time",
+            choice.data);
     return order;
 }
 
@@ -250,7 +252,7 @@ std::string with_data(const std::string& source, const DataSelection& order, con
 
 void expect_plain_name(const std::string& name) {
     if (std::ranges::any_of(name, [](unsigned char c) { return std::iscntrl(c); }))
-        throw EnvironmentError("the file name {} contains control characters", in_one_line(name));
+        throw EnvironmentError("the file name {} contains control characters; rename the file", in_one_line(name));
 }
 
 fs::path name_of_data_file(const std::string& requested) {

@@ -83,7 +83,8 @@ void SessionText::wait_for_editor() const {
 void SessionText::change(std::string text, bool goes_on) {
     if (text == text_) return;
     if (text.size() > kMaxSourceSize)
-        throw DocumentError(Message("not applied: the script exceeds {} MB", kMaxSourceSize >> 20));
+        throw DocumentError(
+            Message("the change was not applied, because the script would exceed {} MB", kMaxSourceSize >> 20));
     if (!goes_on) past_.push_back(text_);
     if (past_.size() > kMaxSteps) past_.erase(past_.begin());
     future_.clear();

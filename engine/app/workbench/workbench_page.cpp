@@ -195,8 +195,9 @@ void serve_documents(WebServer& server, WorkbenchSession& bench, BackgroundWork&
     server.on_get("/document.pdf", [&](const PageRequest&) {
         constexpr int kFailed = 500, kForbidden = 403, kConflict = 409;
         if (!permissions.granted())
-            return PageReply{bench.translated(Message("This script is not allowed to run yet. Allow it on the page.")),
-                             kPlainText, kForbidden};
+            return PageReply{
+                bench.translated(Message("This script is not allowed to run yet. Press \"Run it\" on the page.")),
+                kPlainText, kForbidden};
         if (const auto mistake = bench.mistake())
             return PageReply{
                 bench.translated(Message("A report cannot be created from a script with an error: {}", *mistake)),

@@ -133,7 +133,7 @@ void WorkbenchSession::save_rest() {
     const std::lock_guard lock(mutex_);
     if (state_.save() && state_.may_run()) notify_saving_(state_.text().text());
     if (!state_.text().unsaved().empty())
-        throw EnvironmentError("the last changes are lost: {}", state_.text().unsaved());
+        throw EnvironmentError("the last changes to the script are lost: {}", state_.text().unsaved());
 }
 
 void WorkbenchSession::take_file_changes() {

@@ -68,8 +68,9 @@ int extend_for_one(Course& course, const Assignment& a, const CorrectionArgument
     std::optional<Instant> due;
     if (!args.end) due = course.clock().parse(args.time, "TIME");
     if (const Instant of_class = due_of_class(a, args.requested.stage); due && *due < of_class)
-        throw InvalidArgument("the deadline of the class is {}. An extension cannot be earlier",
-                              course.clock().show_exactly(of_class));
+        throw InvalidArgument(
+            "the new deadline, {}, is earlier than the deadline of the class, {}; give a later deadline",
+            course.clock().show_exactly(*due), course.clock().show_exactly(of_class));
     extend(course, a, args.requested.group, args.requested.stage, due, args.reason, time_of(course, args.at));
     const Group group = group_named(course, args.requested.group);
     std::cout << fmt::format("{}: due for {} {}.\n", a.name, group.name,

@@ -117,8 +117,8 @@ int pairs(const CourseArguments& where, const PeerArguments& args) {
     if (constraints == 0 && args.reviewer.empty()) return show_pairs(where, args);
     if (constraints != 1 || args.author.empty() || args.reason.empty())
         throw InvalidArgument(
-            "specify a pair and an action: review pairs ASSIGNMENT REVIEWER AUTHOR with --set, --forbid or --free, and "
-            "--reason");
+            "specify a pair, an action (--set, --forbid or --free) and --reason, as in: dynlab course review pairs "
+            "ASSIGNMENT REVIEWER AUTHOR --forbid --reason \"...\"");
     return constraint(where, args, args.set ? "set" : args.forbid ? "forbid" : "free");
 }
 

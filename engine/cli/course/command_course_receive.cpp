@@ -125,7 +125,10 @@ fs::path file_not_taken(Course& course, const Assignment& assignment, const std:
     });
     if (found.size() != 1)
         throw found.empty()
-            ? InvalidArgument("{}: none of the files that were not accepted has the name \"{}\"", assignment.name, name)
+            ? InvalidArgument(
+                  "{}: none of the files that were not accepted has the name \"{}\"; dynlab course status lists these "
+                  "files",
+                  assignment.name, name)
             : InvalidArgument(
                   "{}: {} files that were not accepted have the name \"{}\"; give at least the first 8 digits of the "
                   "SHA-256 hash instead of the name",

@@ -112,8 +112,9 @@ class CopyingAnonymously {
         if (pdf)
             result_.not_rebuilt = std::exchange(result_.error_reason, Message());
         else if (result_.error_reason.empty())
-            result_.error_reason =
-                Message("The report cannot be created again, and the submission does not contain exactly one PDF.");
+            result_.error_reason = Message(
+                "The report cannot be created again, and the submission contains neither report.pdf nor a single other "
+                "PDF.");
         return pdf;
     }
 
@@ -134,8 +135,9 @@ class CopyingAnonymously {
         const bool made = child.exit_code == 0 && fs::is_regular_file(report());
         if (!made) refuse_full_disk(report().parent_path(), kSpaceForReport);
         if (made && bytes_below(report().parent_path()) <= kMaxMade) return true;
-        result_.error_reason = Message("The report cannot be created again: {}",
-                                       made ? Message("the report is too large") : reason_of(child, inside));
+        result_.error_reason =
+            Message("The report cannot be created again: {}",
+                    made ? Message("the report exceeds {} MB", kMaxMade >> 20) : reason_of(child, inside));
         return false;
     }
 

@@ -41,7 +41,8 @@ int simulated_data(Call& call) {
         throw InvalidArgument("the data set of the simulated plant \"{}\" must be a table of vectors", name);
     for (lua_pushnil(L); lua_next(L, table) != 0; lua_settop(L, table + 1)) {
         if (lua_type(L, table + 1) != LUA_TSTRING)
-            throw InvalidArgument("the signals of the simulated plant \"{}\" need names", name);
+            throw InvalidArgument("each signal of the simulated plant \"{}\" needs a name, as in {u = ..., y = ...}",
+                                  name);
         const Call values(L);
         const VectorMap signal = values.vector(table + 2, lua_tostring(L, table + 1));
         session.simulated_data[lua_tostring(L, table + 1)] = {signal.begin(), signal.end()};
@@ -53,7 +54,9 @@ int simulated_data(Call& call) {
 
 /// A test asks for what is secret itself, so that it is known which messages must give nothing away.
 void note_hidden(CheckSession& session) {
-    if (!session.current) throw InvalidArgument("secret data must be requested inside the test that uses them");
+    if (!session.current)
+        throw InvalidArgument(
+            "hidden and truth give access to secret data only inside the test of a check; move the call into the test");
     session.took_hidden = true;
 }
 
@@ -70,8 +73,8 @@ int hidden(Call& call) {
         return 1;
     }
     throw InvalidArgument(
-        "unknown hidden data set \"{}\": specify a simulated experiment, a plant that the checks declare, or a file in "
-        "the folder \"hidden\" of the checks",
+        "unknown hidden data set \"{}\". Give the name of a simulated plant, of a plant that the checks declare, or of "
+        "a file in the folder \"hidden\" of the checks",
         name);
 }
 
@@ -114,7 +117,9 @@ int truth(Call& call) {
     const auto [name, variant_number] = requested_plant_variant(call, session);
     if (const auto own = session.plants.find(name); own != session.plants.end()) {
         if (own->second.truth == 0)
-            throw InvalidArgument("the simulated plant \"{}\" does not declare true values", name);
+            throw InvalidArgument(
+                "the simulated plant \"{}\" does not declare true values; add a function \"truth\" to its declaration",
+                name);
         call_of_plant(call, own->second.truth, variant_number, variant_number);
         return 1;
     }

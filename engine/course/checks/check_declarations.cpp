@@ -6,6 +6,7 @@
 #include "platform/spelling.h"
 #include "scripting/conversions/arguments.h"
 #include "scripting/runtime/context.h"
+#include "scripting/runtime/kind_phrases.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -48,7 +49,9 @@ int kept_option(const Options& options, const char* name, int type, const Messag
     lua_State* L = options.call().state();
     const int index = options.push(name);
     if (lua_isnil(L, index) && !needed) return 0;
-    if (lua_type(L, index) != type) throw InvalidArgument("\"{}\" of {} must be {}", name, owner, requested);
+    if (lua_type(L, index) != type)
+        throw InvalidArgument("\"{}\" of {} must be {}, but it is {}", name, owner, requested,
+                              what_it_is(lua_typename(L, lua_type(L, index))));
     lua_pushvalue(L, index);
     return luaL_ref(L, LUA_REGISTRYINDEX);
 }
@@ -56,7 +59,8 @@ int kept_option(const Options& options, const char* name, int type, const Messag
 double points_option(const Options& options, const std::string& id, double fallback) {
     const double points = options.number("points", fallback);
     if (!(points > 0) || points > kMaxPointCount)
-        throw InvalidArgument("the points of \"{}\" must be a number greater than 0 and at most 1000", id);
+        throw InvalidArgument("the points of \"{}\" must be a number greater than 0 and at most 1000, but {} was given",
+                              id, points);
     return points;
 }
 
@@ -66,7 +70,9 @@ int check(Call& call) {
     const Options options(call, 1, kCheck);
     DeclaredCheck check;
     check.id = options.text("id", "");
-    if (!plain_id(check.id)) throw InvalidArgument("the id of a check must consist of letters, digits and _");
+    if (!plain_id(check.id))
+        throw InvalidArgument("the id of a check must consist of letters, digits and _, but \"{}\" was given",
+                              check.id);
     for (const DeclaredCheck& other : session.checks)
         if (other.id == check.id) throw InvalidArgument("the check \"{}\" is declared twice", check.id);
     check.points = points_option(options, check.id, 1);
@@ -126,7 +132,9 @@ int declare_plant(Call& call) {
     const std::string name = options.text("name", "");
     if (!plain_id(name))
         throw InvalidArgument(
-            "the name of a simulated plant must consist of letters, digits and _; it is also the name of its data set");
+            "the name of a simulated plant and of its data set must consist of letters, digits and _, but \"{}\" was "
+            "given",
+            name);
     if (session.plants.contains(name)) throw InvalidArgument("the simulated plant \"{}\" is declared twice", name);
     const Message owner = Message("the simulated plant \"{}\"", name);
     session.plants[name] = {kept_option(options, "record", LUA_TFUNCTION, owner, Message("a function"), true),

@@ -102,7 +102,9 @@ int near(Call& call) {
     const double max_error = absolute ? options.number("abs", 0) : options.number("rel", 0.05);
     const double half = options.number("half", max_error);  // this far away earns half the points
     if (!(max_error >= 0) || !(half >= max_error))
-        throw InvalidArgument("the tolerance must be nonnegative, and 'half' must not be less than the tolerance");
+        throw InvalidArgument(
+            "the tolerance must be nonnegative and at most 'half', but the tolerance is {} and 'half' is {}", max_error,
+            half);
     const Compared compared(call);
     const double apart = compared.distance(absolute);
     const auto measured = [&](double x) {
@@ -126,7 +128,7 @@ int near(Call& call) {
 int points_between(Call& call) {
     call.at_most(3);
     const double x = call.number(1, "x"), low = call.number(2, "low"), high = call.number(3, "high");
-    if (!(low != high)) throw InvalidArgument("'low' and 'high' must differ");
+    if (!(low != high)) throw InvalidArgument("'low' and 'high' must differ, but both are {}", low);
     const double share = std::isfinite(x) ? std::clamp((x - low) / (high - low), 0.0, 1.0) : 0;
     if (share == 1) return give_result(call, 1, {});
     if (uses_hidden_data(call))

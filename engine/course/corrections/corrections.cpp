@@ -124,7 +124,7 @@ std::vector<std::int64_t> correct_arrival(Course& course, const Assignment& a, c
                                           Instant received, const std::string& reason, Instant now) {
     refuse_without_reason(reason);
     if (received > now)
-        throw InvalidArgument("a file cannot have been received at {}, which is in the future",
+        throw InvalidArgument("the time of receipt, {}, is in the future; give the time at which the file arrived",
                               course.clock().show_exactly(received));
     Transaction transaction(course.database());
     const SelectedFiles files(course, a, requested);

@@ -107,7 +107,7 @@ void PlatformSheet::split(std::string_view text) {
         line.end += '\n';
         lines_.push_back(std::exchange(line, {}));
     }
-    if (quoted) throw EnvironmentError("{}: a quotation mark is not closed", file_.string());
+    if (quoted) throw EnvironmentError("{}: a quotation mark is not closed; download the file again", file_.string());
     if (cell.empty() && line.cells.empty()) return;
     line.cells.push_back(std::move(cell));
     lines_.push_back(std::move(line));
@@ -170,8 +170,10 @@ void PlatformSheet::recognize_moodle() {
     maximum_ = maximum;
     if (!grade_ && maximum && *maximum > 0) grade_ = *maximum - 1;
     if (!grade_ || grade_ == number_)
-        throw EnvironmentError("{}: the grade column is not recognized; the columns are {}", file_.string(),
-                               listed_columns());
+        throw EnvironmentError(
+            "{}: a column for grades, such as \"Grade\", is required; the columns are {}. Download the worksheet with "
+            "Moodle in English",
+            file_.string(), listed_columns());
     id_ = called("id"), mail_ = called("email"), name_ = called("name");
     comment_ = first_column(names_, [](const std::string& name) { return has_word(name, kCommentWords); });
     if (!name_ && *number_ + 1 < names_.size() && grade_ != *number_ + 1) name_ = *number_ + 1;
@@ -199,8 +201,10 @@ void PlatformSheet::recognize_canvas(const std::string& assignment) {
     }
     if (assignment.empty()) fitting = all;
     if (fitting.size() != 1)
-        throw EnvironmentError("{}: specify the column to fill in; the columns are {}", file_.string(),
-                               listed_columns());
+        throw EnvironmentError(
+            "{}: specify the column to fill in (--assignment of dynlab export-grades, --column of dynlab course "
+            "export); the columns are {}",
+            file_.string(), listed_columns());
     grade_ = fitting.front();
 }
 

@@ -302,7 +302,7 @@ Attention what_needs_attention(const ClassResults& results) {
             if (waits_for_a_hand(grade))
                 by_hand.push_back(fmt::format("\"{}\"", name));
             else if (!whole(grade) && some_whole)
-                add(Message("\"{}\" is not fully graded", name));
+                add(Message("\"{}\" is not fully graded: some checks have no points yet", name));
             if (grade.error_reason.empty() && grade.silent)
                 add(Message("\"{}\" ran to completion but submitted no answer", name));
             if (!grade.error_reason.empty())

@@ -63,8 +63,8 @@ std::string hash_of_parts(const std::vector<std::string>& parts) {
     std::vector<std::string> names;
     for (const Plant& plant : plant_catalog()) names.push_back(plant.name);
     throw EnvironmentError(
-        "the check \"{}\" requests a rerun on \"{}\". Use {}, a plant that the checks declare, or rerun/NAME.csv in "
-        "the folder of the checks; \"seed\" changes the seed",
+        "the check \"{}\" requests a rerun on the unknown data set \"{}\". Use \"seed\" (another seed), {}, a plant "
+        "that the checks declare, or rerun/NAME.csv in the folder of the checks",
         check, rerun, listed(names));
 }
 

@@ -78,9 +78,9 @@ void conclude_lateness(ClassWork& work) {
         if (!waits) continue;
         ++work.unconfirmed;
         work.attention.push_back(
-            Message("\"{}\" arrived {} after its deadline, and a penalty of {} % is not applied yet; confirm it "
-                    "with --accept-late (dynlab grade, dynlab course submit), or set the time of receipt with dynlab "
-                    "course set-received",
+            Message("\"{}\" arrived {} after its deadline, but the penalty of {} % is not applied yet. Confirm the "
+                    "penalty with --accept-late (dynlab grade, dynlab course submit), or correct the time of receipt "
+                    "with dynlab course set-received",
                     name, by, significant(lateness.waiting_percent, 4)));
     }
     if (Message question = doubt_about_zone(std::move(late), work.items.size()); !question.empty())

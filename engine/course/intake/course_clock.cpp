@@ -71,14 +71,19 @@ Instant CourseClock::parse(const std::string& text, const std::string& what) con
     if (!read)
         throw InvalidArgument("{} must be a time such as \"2026-03-01 18:00\" ({}), but \"{}\" was given", what, zone_,
                               text);
-    if (!read->exists && utc) throw InvalidArgument("{} \"{}\" does not exist", what, text);
-    if (!read->exists) throw InvalidArgument("{} \"{}\" does not exist in {}", what, text, zone_);
+    if (!read->exists && utc)
+        throw InvalidArgument("{} \"{}\" does not exist in the calendar; correct the date", what, text);
+    if (!read->exists)
+        throw InvalidArgument(
+            "{} \"{}\" does not exist in {}, because the date is not in the calendar or the clocks go forward at that "
+            "time. Give another time",
+            what, text, zone_);
     constexpr Instant kHour = 3600;
     for (const Instant other : {read->instant - kHour, read->instant + kHour})
         if (!utc && same_reading(local(other), local(read->instant)))
             throw InvalidArgument(
-                "{} \"{}\" occurs twice in {}, because the clocks go back. Give it in UTC: \"{}\" or \"{}\"", what,
-                text, zone_, utc_text(std::min(other, read->instant)), utc_text(std::max(other, read->instant)));
+                "{} \"{}\" occurs twice in {}, because the clocks go back. Give the time in UTC: \"{}\" or \"{}\"",
+                what, text, zone_, utc_text(std::min(other, read->instant)), utc_text(std::max(other, read->instant)));
     return read->instant;
 }
 

@@ -49,10 +49,10 @@ const std::vector<Sign>& signs() {
         {"??", "reference-unresolved", [](Line line) { return Message("A reference was not resolved: \"{}\".", line); },
          Message("Define the label, or correct the reference.")},
         {"____", "placeholder-left", [](Line line) { return Message("A blank was not filled in: \"{}\".", line); },
-         Message("Fill it in.")},
+         Message("Fill in the blank.")},
         {"lorem ipsum", "placeholder-left",
          [](Line line) { return Message("Placeholder text is left in the document: \"{}\".", line); },
-         Message("Replace it with your own text.")},
+         Message("Replace the placeholder text with your own text.")},
     };
     return all;
 }

@@ -57,11 +57,12 @@ void CourseWork::say_what_a_mark_covers(Course& course, const Assignment& assign
         if (!made.next()) continue;
         for (const Stored& version : versions)
             if (version.group == mark.group && version.received > made.integer(0) && version.part != kUnreadable)
-                work_.attention.push_back(Message(
-                    "\"{}\" came after you marked the complete submission; your mark of {} still counts. To count "
-                    "the new submission instead, withdraw your mark (dynlab course withdraw {} {} --mark \"*\")",
-                    name_of(groups_.at(version.group), version.part, version.number), points_text(*mark.points),
-                    assignment.name, groups_.at(version.group).name));
+                work_.attention.push_back(
+                    Message("\"{}\" arrived after you marked the complete submission; your mark of {} still counts. To "
+                            "count the new submission instead, withdraw your mark (dynlab course withdraw {} {} --mark "
+                            "\"*\" --reason \"...\")",
+                            name_of(groups_.at(version.group), version.part, version.number), points_text(*mark.points),
+                            assignment.name, groups_.at(version.group).name));
     }
 }
 
@@ -133,7 +134,8 @@ void CourseWork::add(Course& course, const Stored& version, const Assignment& as
     const std::vector<std::string>& members = group.members;
     for (std::size_t place = 0; place < work_.students.size(); ++place)
         if (std::ranges::find(members, work_.students[place].id) != members.end()) item.students.push_back(place);
-    if (item.students.empty()) item.unmatched = Message("the group {} had no members at that time", group.name);
+    if (item.students.empty())
+        item.unmatched = Message("the group {} had no members at the time of submission", group.name);
     const bool alone = item.students.size() == 1 && work_.students[item.students.front()].id == group.name;
     if (!alone) item.group = group.name;
     address(item);

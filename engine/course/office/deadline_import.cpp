@@ -143,7 +143,9 @@ std::map<std::string, DeadlineRow> read_deadlines(const fs::path& file, const De
         read.grace = table.duration(row, "grace").value_or(read.grace);
         read.percent_per_day = table.number(row, "percent_per_day", read.percent_per_day);
         read.max_percent = table.number(row, "most_percent", read.max_percent);
-        if (!rows.emplace(who, read).second) table.fail(row, Message("\"{}\" already has a deadline", who));
+        if (!rows.emplace(who, read).second)
+            table.fail(row,
+                       Message("\"{}\" already has a deadline in an earlier row; delete one of the two rows", who));
     }
     return rows;
 }

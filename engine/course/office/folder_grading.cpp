@@ -185,7 +185,10 @@ void FolderGrading::prepare(Course& course) {
     tried_.emplace(options_);  // what is wrong with the checks is said first
     if (!request_.again) refuse_differences(then, now, request_);
     if (!request_.roster.empty() && import_roster(course, request_.roster, true).converted)
-        complaints_.push_back(Message("{} is not UTF-8; dynlab read it as Windows-1252", request_.roster));
+        complaints_.push_back(
+            Message("{} is not UTF-8, so dynlab read the file as Windows-1252; check names with accents, or save the "
+                    "file as UTF-8",
+                    request_.roster));
     set_assignment(course, assignment_, assignments_of(course).empty() ? "" : "dynlab grade");
     assignment_ = assignment_named(course, assignment_.name);
     if (!request_.owners.empty()) set_owners(course, assignment_, request_.owners);

@@ -48,8 +48,13 @@ bool says(const MarksFile::Row& row, const GivenMark* mark) {
 Message problem_of_points(const MarksFile::Row& row, const std::map<std::string, double>& max_points,
                           const GivenMark* in_force) {
     const auto max = max_points.find(row.check);
-    if (max == max_points.end())
-        return Message("unknown check \"{}\" (for \"{}\"); * means the complete submission", row.check, row.who);
+    if (max == max_points.end()) {
+        std::vector<std::string> checks;
+        for (const auto& [check, points] : max_points)
+            if (check != kWholeItem) checks.push_back(check);
+        return Message("unknown check \"{}\" (for \"{}\"); the checks are {}, and * means the complete submission",
+                       row.check, row.who, listed(checks));
+    }
     if (!row.points || *row.points <= max->second) return {};
     if (in_force != nullptr && points_text(*in_force->points) == points_text(*row.points)) return {};
     return Message(
@@ -90,8 +95,8 @@ class ChangedRows {
         const auto [other, fresh] = rows_.try_emplace({marked, row.check}, row);
         if (fresh || points_text(*other->second.points) == points_text(*row.points)) return;
         throw EnvironmentError(
-            "{}, lines {} and {}: both are about the same work and the check \"{}\", but give {} and {} points. Delete "
-            "one of the two rows",
+            "{}, lines {} and {}: both rows are about the same work and the check \"{}\", but give {} and {} points. "
+            "Delete one of the two rows",
             file_, other->second.line, row.line, row.check, points_text(*other->second.points),
             points_text(*row.points));
     }

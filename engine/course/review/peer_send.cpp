@@ -32,7 +32,8 @@ class CopySender {
           reason_(accepted.reason),
           people_(students_of(course)) {
         if (!accepted.groups.empty() && reason_.empty())
-            throw InvalidArgument("give a reason for accepting names, which the history shows: --reason \"...\"");
+            throw InvalidArgument(
+                "give a reason for accepting the names with --reason \"...\"; the history shows the reason");
         for (const std::string& name : accepted.groups) accepted_.insert(group_named(course, name).name);
         outcome_.folder = course.folder() / "outbox" / assignment.name / (to_reviewers() ? "to-review" : "reviews");
     }

@@ -22,7 +22,9 @@ namespace {
 constexpr char kInstructor[] = "instructor", kComment[] = "comment";
 
 void refuse_other_than_talk(const Assignment& a) {
-    if (a.is_report()) throw InvalidArgument("{} is a report: its marks are based on reviews, not on a talk", a.name);
+    if (a.is_report())
+        throw InvalidArgument(
+            "--sheet creates score sheets only for talks, but {} is a report. Its marks come from reviews", a.name);
     if (a.is_lab())
         throw InvalidArgument(
             "{} is a lab, so its checks determine the points. To change the points, use dynlab course mark", a.name);
@@ -72,7 +74,9 @@ class ScoreReader {
   private:
     void check_columns(const std::vector<std::string>& owners, std::set<std::string> others) const {
         const auto has = [&](const std::string& name) { return table_.column(name).has_value(); };
-        if (std::ranges::none_of(owners, has)) fail(1, Message("no column is named {}", listed(owners, Join::kOr)));
+        if (std::ranges::none_of(owners, has))
+            fail(1, Message("a column named {} is required; the columns are {}", listed(owners, Join::kOr),
+                            listed(table_.names)));
         others.insert(owners.begin(), owners.end());
         std::vector<std::string> criteria, unknown;
         bool any = false;
@@ -131,7 +135,8 @@ class ScoreReader {
     }
 
     GivenMark of_group(const Group& group) const {
-        if (has_points() && group.dropped_out) throw InvalidArgument("{} dropped out and has no scores", group.name);
+        if (has_points() && group.dropped_out)
+            throw InvalidArgument("{} dropped out and cannot have scores; delete the scores in this row", group.name);
         GivenMark owner;
         owner.group = group.id;
         return owner;
@@ -166,10 +171,12 @@ class ScoreReader {
         const std::string name = cell("student"), group = cell("group");
         if (name.empty()) return of_group(group_named(course_, group));
         const Student student = student_named(course_, name);
-        if (student.group.empty()) throw InvalidArgument("{} is not in a group", student.id);
+        if (student.group.empty())
+            throw InvalidArgument("the student {} is not in a group; enter the group in the roster", student.id);
         const Group own = group_named(course_, student.group);
         if (!group.empty() && group_named(course_, group).id != own.id)
-            throw InvalidArgument("{} is in {}, not in {}", student.id, own.name, group);
+            throw InvalidArgument("the student {} is in {}, not in {}; correct the group in this row", student.id,
+                                  own.name, group);
         GivenMark owner = of_group(own);
         owner.student = student.id;
         return owner;

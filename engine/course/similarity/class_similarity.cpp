@@ -34,7 +34,8 @@ void add_scripts(const fs::path& from, const std::string& prefix, bool of_class,
                  std::vector<ComparedScript>& scripts, std::vector<Message>& complaints) {
     const auto add = [&](const std::string& name, const fs::path& file) {
         if (fs::file_size(file) > kMaxComparedBytes)
-            complaints.push_back(Message("\"{}\" is too large for the comparison", name));
+            complaints.push_back(
+                Message("\"{}\" is larger than {} MB and is not compared", name, kMaxComparedBytes >> 20));
         else
             scripts.push_back({prefix + name, read_file(file), of_class});
     };

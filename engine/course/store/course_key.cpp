@@ -39,8 +39,8 @@ PublicKey read_public_key(const std::filesystem::path& file) {
     }
     if (!is_key || key.digits.size() != kKeyDigits || !is_hex(key.digits))
         throw EnvironmentError(
-            "{}: the file is not the public key of a course; ask for the file {} of the course (dynlab course verify "
-            "--key shows the key)",
+            "{}: the file is not the public key of a course. Ask your instructor for the file {}, which dynlab course "
+            "verify --key creates",
             file.string(), kPublicKeyFile);
     return key;
 }

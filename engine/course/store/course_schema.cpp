@@ -291,7 +291,7 @@ bool migrate_course(Database& database, Database::Opening opening, const std::st
         if (version > newest)
             throw EnvironmentError(
                 "{}: a newer version of dynlab created this course (its tables have version {}, but this program "
-                "supports version {}); use the newer dynlab",
+                "supports version {}); install the newer version",
                 file, version, newest);
         return version;
     };

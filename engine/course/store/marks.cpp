@@ -223,12 +223,15 @@ std::optional<double> max_points_of(Course& course, const Assignment& assignment
     const std::vector<CheckPoints> checks = newest_checks(course, assignment);
     if (checks.empty()) return {};
     double whole = 0;
+    std::vector<std::string> ids;
     for (const CheckPoints& check : checks) {
         if (check.id == item) return check.points;
         whole += check.points;
+        ids.push_back(check.id);
     }
     if (item == kWholeItem) return whole;
-    throw InvalidArgument("{} has no check \"{}\"; * means the complete submission", assignment.name, item);
+    throw InvalidArgument("{} has no check \"{}\"; the checks are {}, and * means the complete submission",
+                          assignment.name, item, listed(ids));
 }
 
 std::vector<CheckPoints> newest_checks(Course& course, const Assignment& assignment) {

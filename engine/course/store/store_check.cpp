@@ -50,13 +50,15 @@ void check_signatures(Course& course, StoreCheck& check) {
     Database& db = course.database();
     for (Rows rows = db.query("SELECT id, signature FROM versions ORDER BY id"); rows.next(); ++check.versions)
         if (!is_version_signature(course, receipt_of(course, rows.integer(0), 0), rows.text(1)))
-            check.error_list.push_back(Message("version {}: the data differ from the signed data", rows.integer(0)));
+            check.error_list.push_back(
+                Message("version {}: the data differ from the signed data; restore a backup", rows.integer(0)));
     std::map<std::int64_t, std::int64_t> number;
     for (Rows rows = db.query("SELECT version, signature FROM arrivals ORDER BY id"); rows.next();) {
         const std::int64_t version = rows.integer(0), correction = ++number[version];
         if (!is_version_signature(course, receipt_of(course, version, correction), rows.text(1)))
             check.error_list.push_back(
-                Message("version {}: the correction {} differs from the signed correction", version, correction));
+                Message("version {}: the correction {} differs from the signed correction; restore a backup", version,
+                        correction));
     }
 }
 
@@ -85,9 +87,11 @@ StoreCheck check_store(Course& course) {
     check_leftovers(course, check);
     Database& db = course.database();
     for (Rows rows = db.query("PRAGMA integrity_check"); rows.next();)
-        if (rows.text(0) != "ok") check.error_list.push_back(Message("the database: {}", rows.text(0)));
+        if (rows.text(0) != "ok")
+            check.error_list.push_back(Message("the database is damaged: {}. Restore a backup", rows.text(0)));
     for (Rows rows = db.query("PRAGMA foreign_key_check"); rows.next();)
-        check.error_list.push_back(Message("the database: a row of {} refers to a missing row", rows.text(0)));
+        check.error_list.push_back(
+            Message("the database is damaged: a row of {} refers to a missing row. Restore a backup", rows.text(0)));
     for (Rows rows = db.query("SELECT hash FROM files ORDER BY hash"); rows.next(); ++check.files) {
         const auto file = course.file(rows.text(0));
         if (!std::filesystem::exists(file))

@@ -212,7 +212,7 @@ const json& checked_cells(const json& notebook, const std::filesystem::path& nam
     }
     const auto cells = notebook.find("cells");
     if (cells == notebook.end() || !cells->is_array())
-        refuse_notebook(name, Message("this notebook has no list of cells"));
+        refuse_notebook(name, Message("this notebook has no list of cells; save the notebook again in Jupyter"));
     if (cells->empty()) refuse_notebook(name, Message("this notebook has no cells"));
     return *cells;
 }
@@ -247,10 +247,10 @@ void add_losses_of_code(const std::string& code, int cell, const std::filesystem
     for (const std::string& line : lines_of(code)) {
         ++number;
         if (!is_cell_marker(line)) continue;
-        losses.push_back(
-            placed({name}, Message("cell {}, line {}: \"{}\" would start a cell of the script, so the script contains "
-                                   "\"{}\". Inside a string, write it in another way, such as \"--\" .. \" %%\"",
-                                   cell, number, line, script_line(line, false))));
+        losses.push_back(placed(
+            {name}, Message("cell {}, line {}: \"{}\" would start a cell of the script, so the script contains \"{}\". "
+                            "Inside a string, write the marker in another way, such as \"--\" .. \" %%\"",
+                            cell, number, line, script_line(line, false))));
     }
 }
 
@@ -308,7 +308,9 @@ NotebookScript script_of_notebook(std::string_view text, const std::filesystem::
         const bool first = ++number == 1, last = static_cast<std::size_t>(number) == cells.size();
         const std::string kind = text_at(cell, "cell_type");
         if (kind != "code" && kind != "markdown" && kind != "raw")
-            refuse_notebook(name, Message("cell {} is neither code nor text", number));
+            refuse_notebook(
+                name,
+                Message("cell {} has the type \"{}\", but dynlab supports only code, markdown and raw", number, kind));
         if (!object_at(cell, "attachments").empty())
             script.losses.push_back(placed(
                 {name},

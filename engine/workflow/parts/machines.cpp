@@ -128,13 +128,13 @@ Message first_line(const ChildResult& child) {
 
 [[noreturn]] void refuse_work(const ChildResult& child) {
     const std::string& said = child.error_output;
-    Message remedy = Message("dynlab passes the options that follow \"slurm:\" in --on to sbatch");
+    Message remedy = Message("correct the options that follow \"slurm:\" in --on, which dynlab passes to sbatch");
     if (said.find("partition") != std::string::npos) {
         const ChildResult known = ask_slurm({"sinfo", "--noheader", "--format=%R"});
         remedy = Message("the partitions of this cluster are {}", listed(words_between_spaces(known.output)));
     } else if (said.find("contact slurm controller") != std::string::npos ||
                said.find("onnection refused") != std::string::npos || child.timed_out) {
-        remedy = Message("slurmctld is not running or cannot be reached; `sinfo` must respond");
+        remedy = Message("slurmctld is not running or cannot be reached; repeat the command when `sinfo` responds");
     }
     throw EnvironmentError("Slurm does not accept the jobs ({}): {}", first_line(child), remedy);
 }
@@ -180,7 +180,8 @@ void refuse_queued_jobs(const fs::path& folder) {
     const ChildResult child = ask_slurm({"squeue", "--noheader", "--format=%i", "--jobs=" + jobs});
     if (child.exit_code == 0 && !words_between_spaces(child.output).empty())
         throw EnvironmentError(
-            "the Slurm jobs {} are still running in {}; follow them with squeue, or cancel them first: scancel {}",
+            "the Slurm jobs {} are still queued or running in {}; wait for the jobs (squeue shows their state), or "
+            "cancel them: scancel {}",
             jobs, folder.parent_path().string(), replaced(jobs, ",", " "));
 }
 

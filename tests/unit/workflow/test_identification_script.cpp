@@ -292,11 +292,16 @@ TEST(identify_request, of_orders_delay_or_names_that_make_no_sense_is_refused) {
     refused([](auto& r) { r.delay = -1; }, "must be nonnegative, but it is -1 s");
     refused([](auto& r) { r.delay = NAN; }, "the delay must be nonnegative");
     refused([](auto& r) { r.Ts = 0; }, "Ts must be positive");
-    refused([](auto& r) { r.Ts = 1, r.time = "t"; }, "not both");
-    refused([](auto& r) { r.poles.reset(), r.delay = 0.3; }, "or set the delay to auto");
-    refused([](auto& r) { r.poles.reset(), r.zeros = 4; }, "the number of zeros must be at most 3");
+    refused([](auto& r) { r.Ts = 1, r.time = "t"; }, "give either --Ts or --time, not both");
+    refused([](auto& r) { r.poles.reset(), r.delay = 0.3; },
+            "requires --delay 0 or --delay auto, but the delay is 0.3 s");
+    refused([](auto& r) { r.poles.reset(), r.zeros = 4; }, "the number of zeros must be at most 3, but it is 4");
     refused([](auto& r) { r.poles.reset(), r.zeros = -1; }, "but it is -1");
-    refused([](auto& r) { r.poles.reset(), r.inputs = {"u", "v"}; }, "for several inputs, specify the number");
+    refused(
+        [](auto& r) {
+            r.poles.reset(), r.inputs = {"u", "v"};
+        },
+        "--poles auto supports only one input, but 2 inputs were given; specify the number of poles");
 }
 
 }  // namespace test_identification_script
