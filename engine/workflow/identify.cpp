@@ -180,8 +180,8 @@ std::string reported_inputs(const std::vector<std::string>& inputs) {
 }  // namespace
 
 void IdentifyRequest::validate() const {
-    if (outputs.empty()) throw InvalidArgument("at least one output is required");
-    if (inputs.empty()) throw InvalidArgument("at least one input is required");
+    if (outputs.empty()) throw InvalidArgument("give at least one output with --output");
+    if (inputs.empty()) throw InvalidArgument("give at least one input with --input");
     for (auto input = inputs.begin(); input != inputs.end(); ++input)
         if (std::find(inputs.begin(), input, *input) != input)
             throw InvalidArgument("the input '{}' is given twice", *input);

@@ -253,7 +253,7 @@ TEST_F(preview_editing, a_late_save_writes_nothing) {
     };
     EXPECT_THAT(saves("{number: 0, name: 'x', text: 'bad', digest: 'old'}"), HasSubstr("409"));
     EXPECT_THAT(saves("{number: 7, name: 'x', text: 'bad', digest: ''}"),
-                HasSubstr("this file is not part of the document"));
+                HasSubstr("the document has no file with the number 7"));
     EXPECT_THAT(saves("{number: -1, name: '../../x', text: 'bad', digest: ''}"), HasSubstr("500"));
     EXPECT_THAT(saves("{text: 'bad'}"), HasSubstr("500"));
     EXPECT_EQ(text_of(), kHead + kFirst);

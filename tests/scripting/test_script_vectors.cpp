@@ -70,8 +70,9 @@ TEST(script_vectors, a_table_of_named_entries_is_not_a_vector) {
 
 TEST(script_vectors, where_names_its_arguments_if_their_lengths_differ) {
     for (const char* c : {"vector{1, 1}", "gt({1, 1}, 0)"})
-        EXPECT_EQ(error_of("where(" + std::string(c) + ", vector{1, 2, 3}, 0)"),
-                  "lesson.lua:1: where: c has 2 values, but a has 3");
+        EXPECT_EQ(
+            error_of("where(" + std::string(c) + ", vector{1, 2, 3}, 0)"),
+            "lesson.lua:1: where: all vectors must have the same number of elements, but c has 2 values and a has 3");
     EXPECT_EQ(error_of("where(-1*vector{1, 1}, 0, vector{1})"),
               "lesson.lua:1: where: all vectors must have the same number of elements, but c has 2 values and b has 1");
 }

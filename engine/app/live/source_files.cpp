@@ -25,7 +25,8 @@ SourceFiles::SourceFiles(const std::vector<fs::path>& files) {
 }
 
 std::optional<SourceText> SourceFiles::read(std::size_t number) const {
-    if (number >= files_.size()) throw EnvironmentError("this file is not part of the document");
+    if (number >= files_.size())
+        throw EnvironmentError("the document has no file with the number {}; reload the page", number);
     try {
         SourceText source{number, files_[number].filename(), read_file(files_[number]), {}, files_[number]};
         if (in_utf8(source.text) != source.text) return {};

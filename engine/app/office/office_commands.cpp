@@ -74,8 +74,9 @@ OfficeCommand office_command(const Words& words) {
     constexpr std::size_t kMaxWords = 20, kMaxBytes = 4000;
     const AllowedCommand* const allowed = command_of(words);
     if (words.size() > kMaxWords)
-        throw EnvironmentError("a command can have at most {} words on this page; run the command in a terminal",
-                               kMaxWords);
+        throw EnvironmentError(
+            "a command can have at most {} words on this page, but {} were given; run the command in a terminal",
+            kMaxWords, words.size());
     if (allowed == nullptr) {
         const bool of_course = words.size() > 1 && words[0] == "course";
         throw EnvironmentError("the command \"{}\" is not available on this page; run the command in a terminal",

@@ -34,7 +34,8 @@ std::string view_cells(const ViewOrder& order) {
     if (!quick.is_object()) throw ValueError("the view settings must be a JSON object");
     std::string variables;
     for (const std::string& name : order.variables) {
-        if (!is_name(name) || name.find('-') != std::string::npos) throw ValueError("'{}' is not a valid name", name);
+        if (!is_name(name) || name.find('-') != std::string::npos)
+            throw ValueError("'{}' is not a valid name of a variable", name);
         variables += fmt::format("{0} = value_or_nil(function() return {0} end), ", name);
     }
     const json views = quick.value("views", json::array());

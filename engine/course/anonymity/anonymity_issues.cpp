@@ -251,11 +251,11 @@ class AnonymitySearch {
                          [](const Issue& a, const Issue& b) { return a.severity < b.severity; });
         Issues result(found_.begin(), found_.begin() + std::min(std::ssize(found_), std::ptrdiff_t{kMaxFindings}));
         if (found_.size() > kMaxFindings)
-            result.push_back(
-                {"names-not-listed", Severity::kRule, 0, "",
-                 Message("Further places that contain names, or may contain names, are not listed here (number: {}).",
-                         found_.size() - kMaxFindings),
-                 Message("Correct the listed places and check the document again.")});
+            result.push_back({"names-not-listed", Severity::kRule, 0, "",
+                              plural(static_cast<std::int64_t>(found_.size() - kMaxFindings),
+                                     "{} further place that contains, or may contain, a name is not listed here.",
+                                     "{} further places that contain, or may contain, names are not listed here."),
+                              Message("Correct the listed places and check the document again.")});
         if (!error_reason_.empty())
             result.push_back(
                 {"not-searched", Severity::kRule, 0, "",

@@ -284,10 +284,10 @@ Message numbers_too_short(const std::vector<Student>& students) {
     const auto is_short = [](const Student& student) { return !is_searched_number(student.id); };
     const auto first = std::ranges::find_if(students, is_short);
     if (first == students.end()) return {};
-    return Message(
-        "ids with fewer than {} letters and digits are not searched for in documents (number of these ids: {}; "
-        "example: {})",
-        kMinSearchedDigits, std::ranges::count_if(students, is_short), first->id);
+    return plural(std::ranges::count_if(students, is_short),
+                  "{} id with fewer than {} letters and digits is not searched for in documents: {}",
+                  "{} ids with fewer than {} letters and digits are not searched for in documents; an example is {}",
+                  kMinSearchedDigits, first->id);
 }
 
 CitedAuthor cited_author(const std::string& name) {

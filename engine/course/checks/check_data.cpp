@@ -48,7 +48,7 @@ int simulated_data(Call& call) {
         session.simulated_data[lua_tostring(L, table + 1)] = {signal.begin(), signal.end()};
     }
     if (session.simulated_data.empty())
-        throw InvalidArgument("the data set of the simulated plant \"{}\" is empty", name);
+        throw InvalidArgument("the data set of the simulated plant \"{}\" is empty; return at least one signal", name);
     return 0;
 }
 
@@ -82,7 +82,8 @@ int hidden(Call& call) {
 std::string run_of_answers(const Call& call, int index) {
     if (luaL_getmetafield(call.state(), index, kRunOfAnswers) != LUA_TSTRING)
         throw InvalidArgument(
-            "truth requires the name of a hidden data set, or the answers and the name of a data set");
+            "truth requires the name of a hidden data set, or the answers and the name of a data set, as in truth(a, "
+            "\"crane\")");
     const std::string run = lua_tostring(call.state(), -1);
     lua_pop(call.state(), 1);
     return run;

@@ -74,7 +74,8 @@ int check(Call& call) {
         throw InvalidArgument("the id of a check must consist of letters, digits and _, but \"{}\" was given",
                               check.id);
     for (const DeclaredCheck& other : session.checks)
-        if (other.id == check.id) throw InvalidArgument("the check \"{}\" is declared twice", check.id);
+        if (other.id == check.id)
+            throw InvalidArgument("the check \"{}\" is declared twice; give each check a different id", check.id);
     check.points = points_option(options, check.id, 1);
     check.about = options.text("about", check.id);
     check.hint = options.text("hint", "");
@@ -135,7 +136,8 @@ int declare_plant(Call& call) {
             "the name of a simulated plant and of its data set must consist of letters, digits and _, but \"{}\" was "
             "given",
             name);
-    if (session.plants.contains(name)) throw InvalidArgument("the simulated plant \"{}\" is declared twice", name);
+    if (session.plants.contains(name))
+        throw InvalidArgument("the simulated plant \"{}\" is declared twice; give each plant a different name", name);
     const Message owner = Message("the simulated plant \"{}\"", name);
     session.plants[name] = {kept_option(options, "record", LUA_TFUNCTION, owner, Message("a function"), true),
                             kept_option(options, "truth", LUA_TFUNCTION, owner, Message("a function"), false)};

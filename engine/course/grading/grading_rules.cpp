@@ -102,7 +102,9 @@ void GradingRules::read_checks() {
     if (read.output->error) throw EnvironmentError(*read.output->error);
     for (const EvaluatedCheck& one : read.output->checks) checks_.push_back(one.check);
     declared_plants_ = read.output->plants;
-    if (checks_.empty()) throw EnvironmentError("lesson {} declares no checks", setup_.lesson.slug);
+    if (checks_.empty())
+        throw EnvironmentError("lesson {} declares no checks; declare at least one check in its checks.lua",
+                               setup_.lesson.slug);
     for (const CheckDescription& check : checks_) {
         const std::string& rerun = check.rerun;
         document_ = document_ || check.document;

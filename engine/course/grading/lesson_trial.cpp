@@ -88,7 +88,8 @@ void look_at_solutions(const Lesson& lesson, Faults& faults) {
             faults.add(
                 lesson.script(), 0,
                 Message("BEGIN SOLUTION and END SOLUTION enclose no lines, so students get the complete script"));
-        if (script.header.title.empty()) faults.add(lesson.script(), 0, Message("the header has no title"));
+        if (script.header.title.empty())
+            faults.add(lesson.script(), 0, Message("the header has no title; add a line \"title: TITLE\""));
         if (script.header.lesson != lesson.slug)
             faults.add(lesson.script(), 0,
                        Message("the header names the lesson \"{}\", but the folder of the lesson is \"{}\"",
@@ -228,8 +229,10 @@ void look_at_translated_checks(const Lesson& lesson, const std::string& language
             if (catalog.translation(sentence).empty()) missing.push_back(sentence);
         if (!missing.empty())
             faults.add(words, 0,
-                       Message("number of sentences in checks.lua without a translation: {} of {}; the first is \"{}\"",
-                               missing.size(), all.size(), missing.front()));
+                       plural(static_cast<std::int64_t>(missing.size()),
+                              "{} of {} sentences in checks.lua has no translation: \"{}\"",
+                              "{} of {} sentences in checks.lua have no translation; the first is \"{}\"", all.size(),
+                              missing.front()));
     });
 }
 

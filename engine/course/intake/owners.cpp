@@ -194,7 +194,8 @@ void Owners::read_list(const std::filesystem::path& file) {
             fail(named_id.empty() ? Message("unknown group \"{}\"", named_group)
                                   : Message("no student has the id \"{}\"", named_id));
         const std::string key = archive_stem(composed(row[*submission])).value_or(composed(row[*submission]));
-        if (!list_.emplace(key, *owner).second) fail(Message("\"{}\" already has an owner", key));
+        if (!list_.emplace(key, *owner).second)
+            fail(Message("\"{}\" already has an owner in an earlier row; delete one of the two rows", key));
     }
 }
 

@@ -82,8 +82,9 @@ Roster::Roster(const std::filesystem::path& file) {
             return index ? row[*index] : std::string();
         };
         if (row[*id].empty() && cell("name") == "Points Possible") continue;  // Canvas's second line
-        if (row[*id].empty()) fail(Message("the id is empty"));
-        if (!seen.insert(row[*id]).second) fail(Message("the id \"{}\" occurs twice", row[*id]));
+        if (row[*id].empty()) fail(Message("the id is empty; fill in the column \"id\""));
+        if (!seen.insert(row[*id]).second)
+            fail(Message("the id \"{}\" occurs twice; give each student a different id", row[*id]));
         std::string name = cell("name");
         if (name.empty()) name = std::string(trimmed_cell(cell("first") + " " + cell("last")));
         Student student{row[*id],

@@ -141,16 +141,18 @@ Issues section_findings(const DocumentText& text, const DocumentRules& rules, co
         const Heading& heading = text.headings[*found];
         const std::string shown = printable(heading.text, 60);
         const std::size_t words = words_below(text, *found);
+        const auto expected = text.is_slides() ? kShortSlideWords : kShortSectionWords;
         if (words < kEmptySectionWords) {
             findings.push_back({"section-empty", Severity::kRule, heading.page, "",
                                 Message("The section \"{}\" is empty or nearly empty.", shown),
                                 section.optional
                                     ? Message("Write the section, or remove its heading: the section is optional.")
                                     : Message("Describe your work and your results.")});
-        } else if (words < (text.is_slides() ? kShortSlideWords : kShortSectionWords)) {
-            findings.push_back({"section-short", Severity::kHint, heading.page, "",
-                                Message("The section \"{}\" has only {} words.", shown, words),
-                                Message("Describe your work, the reasons for it, and the result.")});
+        } else if (words < expected) {
+            findings.push_back(
+                {"section-short", Severity::kHint, heading.page, "",
+                 Message("The section \"{}\" has {} words, but at least {} are expected.", shown, words, expected),
+                 Message("Describe your work, the reasons for it, and the result.")});
         }
     }
     return findings;

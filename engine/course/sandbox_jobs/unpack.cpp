@@ -38,7 +38,8 @@ std::optional<Message> objection_to(const fs::path& path) {
         if (part == "..") return outside;
         if (++depth > kMaxArchiveDepth)
             return Message("\"{}\" is nested deeper than {} folders", text, kMaxArchiveDepth);
-        if (part.native().size() > kMaxNameLength) return Message("\"{}\" has a name that is too long", text);
+        if (part.native().size() > kMaxNameLength)
+            return Message("\"{}\" contains a name longer than {} bytes", text, kMaxNameLength);
         for (const unsigned char c : part.native())
             if (c < 0x20 || c == 0x7F) return Message("\"{}\" has a name with control characters", text);
     }

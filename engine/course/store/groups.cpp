@@ -217,7 +217,10 @@ Group group_named(Course& course, const std::string& name) {
     if (found.doubtful) throw InvalidArgument("\"{}\" is ambiguous: {}", name, found.error_reason);
     const auto near = nearest_word(name, owners.names());
     if (near) throw InvalidArgument("the group \"{}\" does not exist; did you mean {}?", name, *near);
-    throw names.empty() ? InvalidArgument("the group \"{}\" does not exist: no group has submitted anything yet", name)
+    throw names.empty() ? InvalidArgument(
+                              "the group \"{}\" does not exist, because the course has no groups yet; import the "
+                              "roster with dynlab course import",
+                              name)
                         : InvalidArgument("the group \"{}\" does not exist; an example of an existing group is \"{}\"",
                                           name, names.front());
 }

@@ -204,8 +204,8 @@ void refuse_unseen_entry(Course& course, const Assignment& assignment, std::int6
     const std::string at = course.clock().show_exactly(newest.at);
     if (newest.points)
         throw InvalidArgument(
-            "the mark was not changed: {} already has {} for {}, entered at {} (\"{}\"). Check this mark, then try "
-            "again",
+            "the mark was not changed: {} already has the mark {} for {}, entered at {} (\"{}\"). Check this mark, "
+            "then try again",
             who, *newest.points, item, at, newest.reason);
     throw InvalidArgument(
         "the mark was not changed: the earlier mark of {} for {} was withdrawn at {} (\"{}\"). Check the history, then "

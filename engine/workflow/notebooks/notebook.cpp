@@ -213,7 +213,7 @@ const json& checked_cells(const json& notebook, const std::filesystem::path& nam
     const auto cells = notebook.find("cells");
     if (cells == notebook.end() || !cells->is_array())
         refuse_notebook(name, Message("this notebook has no list of cells; save the notebook again in Jupyter"));
-    if (cells->empty()) refuse_notebook(name, Message("this notebook has no cells"));
+    if (cells->empty()) refuse_notebook(name, Message("this notebook has no cells; add a cell and save the notebook"));
     return *cells;
 }
 

@@ -54,8 +54,8 @@ Machines slurm_in(const std::string& list) {
         if (!only_of(name, "abcdefghijklmnopqrstuvwxyz-") || value.empty() ||
             (ours && number_up_to(WorkPart::kMax, value) == 0))
             throw EnvironmentError(
-                "\"{}\" in --on slurm:{} is not OPTION=VALUE: use tasks=N and rounds=N (up to {}), or any option of "
-                "sbatch, such as partition=short or time=2:00:00",
+                "\"{}\" in --on slurm:{} is not a valid OPTION=VALUE: use tasks=N and rounds=N (N from 1 to {}), or "
+                "any option of sbatch, such as partition=short or time=2:00:00",
                 word, list, WorkPart::kMax);
         if (ours)
             (name == "tasks" ? machines.parts : machines.rounds) = number_up_to(WorkPart::kMax, value);
@@ -74,8 +74,9 @@ Machines hosts_in(const std::string& list) {
         if (slots == 0 || host.starts_with('-') ||
             !only_of(host, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-_@:[]"))
             throw EnvironmentError(
-                "\"{}\" in --on hosts:{} is not a host: write HOST, USER@HOST, or 4/HOST for four parallel parts", word,
-                list);
+                "\"{}\" in --on hosts:{} is not a valid host: write HOST, USER@HOST, or N/HOST for N parallel parts (N "
+                "from 1 to 256)",
+                word, list);
         machines.words.push_back(word);
         machines.parts = std::min(WorkPart::kMax, machines.parts + kPartsOfASlot * slots);
     }

@@ -63,8 +63,8 @@ TEST(machines, what_is_no_machine_is_refused_with_what_is_expected) {
     EXPECT_THAT(refusal("cloud:9"), AllOf(HasSubstr("must be slurm"), HasSubstr("\"cloud:9\" was given")));
     EXPECT_THAT(refusal("processes:0"), HasSubstr("processes:N (1 to 256)"));
     EXPECT_THAT(refusal("hosts:"), HasSubstr("must be slurm"));
-    EXPECT_THAT(refusal("hosts:-oProxyCommand=x"), HasSubstr("is not a host"));
-    EXPECT_THAT(refusal("hosts:a;b"), HasSubstr("is not a host"));
+    EXPECT_THAT(refusal("hosts:-oProxyCommand=x"), HasSubstr("is not a valid host"));
+    EXPECT_THAT(refusal("hosts:a;b"), HasSubstr("is not a valid host"));
     for (const char* wrong : {"slurm:tasks=0", "slurm:tasks=1001", "slurm:tasks", "slurm:rounds=x", "slurm:a b=1"})
         EXPECT_THAT(refusal(wrong), HasSubstr("tasks=N and rounds=N")) << wrong;
 }
