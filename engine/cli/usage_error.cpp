@@ -21,7 +21,7 @@ Message in_our_words(const std::string& theirs) {
     if (RE2::FullMatch(theirs, RE2(R"(Could not convert: (\S+) = (.*))", RE2::Latin1), &option, &value))
         return Message("{} requires a number, but '{}' was given", option, value);
     if (RE2::PartialMatch(theirs, R"(^(\S+): At Most 1 required but received )", &option))
-        return Message("{} was given more than once", option);
+        return Message("{} was given more than once; give the option only once", option);
     if (RE2::PartialMatch(theirs, R"(^(\S+): 1 required )", &option)) return Message("{} requires a value", option);
     return Message::verbatim(theirs);
 }

@@ -59,9 +59,10 @@ void Recording::find_sampling(std::optional<double> given, const std::string& ti
         const auto& clock = loaded_.time.clock;
         constexpr double kClose = 0.01;
         if (clock && clock->spacing.even && std::abs(*given - clock->spacing.step) > kClose * clock->spacing.step)
-            doubt_ = message_text(
-                Message("The sampling time {} s was given, but according to the time column '{}' it is {} s.",
-                        significant(*given, 6), clock->name, significant(clock->spacing.step, 6)));
+            doubt_ =
+                message_text(Message("The sampling time {} s was given, but according to the time column '{}' it is {} "
+                                     "s. dynlab uses the given sampling time.",
+                                     significant(*given, 6), clock->name, significant(clock->spacing.step, 6)));
         return;
     }
     const std::string column = time.empty() ? "" : signal(time).name;

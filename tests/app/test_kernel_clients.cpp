@@ -65,7 +65,8 @@ TEST_F(kernel_clients, doctor_reports_whether_the_kernel_is_there) {
     bench.write("jupyter/kernels/dynlab/kernel.json", "[");
     EXPECT_THAT(reported(), HasSubstr("not installed"));
     bench.write("c.json", "{\"ip\": 3}");
-    EXPECT_THAT(jupyter("$DYNLAB kernel run c.json").error_output, HasSubstr("not a Jupyter connection file. Jupyter"));
+    EXPECT_THAT(jupyter("$DYNLAB kernel run c.json").error_output,
+                HasSubstr("not a Jupyter connection file. Do not start the kernel yourself"));
     bench.write("c.json", R"({"ip": "127.0.0.1", "key": "", "shell_port": 1, "control_port": 2, "stdin_port": 3,)"
                           R"( "iopub_port": 4, "hb_port": 5})");
     EXPECT_THAT(jupyter("$DYNLAB kernel run c.json").error_output, HasSubstr("c.json has no key"));

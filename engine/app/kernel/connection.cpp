@@ -38,8 +38,10 @@ KernelConnection read_connection(const std::filesystem::path& file) {
                 "Session.signature_scheme from the configuration of Jupyter",
                 file.string(), scheme);
     } catch (const json::exception&) {
-        throw EnvironmentError("{} is not a Jupyter connection file. Jupyter starts the kernel: run jupyter notebook",
-                               file.string());
+        throw EnvironmentError(
+            "{} is not a Jupyter connection file. Do not start the kernel yourself: run jupyter notebook, which starts "
+            "the kernel",
+            file.string());
     }
     return connection;
 }

@@ -18,13 +18,14 @@ fs::path place_of(const fs::path& file) {
 }
 
 FolderWatch::FolderWatch() : events_(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC)) {
-    if (!events_) throw EnvironmentError("cannot watch folders: {}", system_reason(errno));
+    if (!events_) throw EnvironmentError("cannot watch folders for changes: {}", system_reason(errno));
 }
 
 void FolderWatch::add(const fs::path& folder) {
     constexpr std::uint32_t kChanges = IN_CREATE | IN_CLOSE_WRITE | IN_MOVED_TO | IN_MOVED_FROM | IN_DELETE | IN_MODIFY;
     const int watch = ::inotify_add_watch(events_.get(), folder.c_str(), kChanges | IN_ONLYDIR);
-    if (watch < 0) throw EnvironmentError("cannot watch the folder {}: {}", folder.string(), system_reason(errno));
+    if (watch < 0)
+        throw EnvironmentError("cannot watch the folder {} for changes: {}", folder.string(), system_reason(errno));
     folders_[watch] = folder;
 }
 

@@ -38,7 +38,8 @@ Notes PageNotes::read() const {
 void PageNotes::put(const PageNote& note) {
     const std::lock_guard lock(mutex_);
     if (file_.empty())
-        throw EnvironmentError("page notes cannot be stored, because neither HOME nor XDG_STATE_HOME is set. Set HOME");
+        throw EnvironmentError(
+            "the drafts of this page cannot be stored, because neither HOME nor XDG_STATE_HOME is set. Set HOME");
     std::int64_t& last = last_[note.name];
     if (note.at < last) return;
     last = note.at;

@@ -45,7 +45,8 @@ class CostTaker {
                                     : Message("a final version late by {}", duration_message(found->second.late));
             if (waits_for_confirmation(a_.costs, found->second.late, found->second.confirmed))
                 mark.costs_of_work.push_back(Message(
-                    "{} % for {} is not deducted until you confirm the time of receipt", significant(percent, 6), why));
+                    "{} % for {} is not deducted until you confirm the time of receipt with dynlab course set-received",
+                    significant(percent, 6), why));
             else
                 take(mark, mark.work, percent, why);
         }

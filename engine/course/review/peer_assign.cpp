@@ -57,8 +57,8 @@ class ReviewAssigner {
             known_[edge] = pair;
             if (pair.written && refused_.contains(edge))
                 outcome_.remarks.push_back(
-                    Message("{} has reviewed {}, but the groups share or shared a member, or review pairs --forbid "
-                            "excludes this pair; withdraw the review if it must not count.",
+                    Message("{} has reviewed {}, but the groups share or shared a member, or the pair is forbidden; "
+                            "withdraw the review if it must not count.",
                             pair.reviewer_name, pair.author_name));
             if (!pair.written && refused_.contains(edge)) continue;
             (pair.written || (pair.sent && both) ? problem_.fixed : problem_.loose).push_back(edge);
@@ -83,12 +83,13 @@ class ReviewAssigner {
                 const std::string &reviewer = groups_[static_cast<std::size_t>(edge.first)].name,
                                   &author = groups_[static_cast<std::size_t>(edge.second)].name;
                 outcome_.remarks.push_back(
-                    both ? Message("{} should review {}, but the groups share or shared a member, or review pairs "
-                                   "--forbid excludes this pair.",
-                                   reviewer, author)
-                         : Message(
-                               "{} should review {}, but one of the groups has submitted no report or has dropped out.",
-                               reviewer, author));
+                    both
+                        ? Message(
+                              "{} should review {}, but the groups share or shared a member, or the pair is forbidden.",
+                              reviewer, author)
+                        : Message(
+                              "{} should review {}, but one of the groups has submitted no report or has dropped out.",
+                              reviewer, author));
                 continue;
             }
             std::erase(problem_.loose, edge);

@@ -60,7 +60,8 @@ TEST(usage_message, of_identify_names_the_option_and_the_wanted_word) {
     wrong({"--poles", "2", "--zeros", "a"}, "dynlab: --zeros requires a number, but 'a' was given\n");
     wrong({"--poles", "2", "--zeros", "3"},
           "from 0 to the number of poles, 2, but it is 3");  // IdentifyRequest::validate
-    wrong({"--poles", "2", "--time", "t", "--time", "u"}, "dynlab: --time was given more than once\n");
+    wrong({"--poles", "2", "--time", "t", "--time", "u"},
+          "dynlab: --time was given more than once; give the option only once\n");
     wrong({"--poles", "2", "--wrong", "1"}, "--wrong");
     wrong({"--poles", "2", "-o", "a.pdf", "--script"}, "--script");
     expect_wrong_usage({"identify", "d.csv", "extra", "--input", "u", "--output", "x", "--poles", "2"},
