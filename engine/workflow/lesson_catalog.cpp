@@ -39,6 +39,9 @@ Message no_lesson(const std::string& name, const std::vector<Lesson>& all) {
                    : Message("the folder '{}' contains neither lesson.lua nor analysis.lua, {}; the lessons are {}",
                              name, near, slugs);
     }
+    if (fs::is_regular_file(name, none))
+        return Message("'{}' is a file; give the number, the name or the folder of a lesson. The lessons are {}", name,
+                       slugs);
     const std::string ending = ending_of(name);
     if (ending == ".lua" || ending == ".ipynb") return no_such_work(name);
     if (const auto work = nearest_work(name))

@@ -96,6 +96,15 @@ TEST_F(grade_export_numbers, a_worksheet_with_another_maximum_gets_scaled_points
                 AllOf(HasSubstr("scaled from 17 points to the maximum grade"), HasSubstr("sheet.csv, which is 100\n")));
 }
 
+// oracle: nothing was delivered
+TEST_F(grade_export_numbers, a_worksheet_without_the_students_is_not_reported_as_delivered_feedback) {
+    write("sheet.csv", "Identifier,Full name,Grade,Maximum grade,Feedback comments\nParticipant 7,Ben Nye,,17,\n");
+    request_.worksheet = folder_.path() / "sheet.csv";
+    const GradeExport back = write_grade_export(request_);
+    EXPECT_THAT(reported(back.notes), AllOf(HasSubstr("no student has both feedback and a known participant number"),
+                                            Not(HasSubstr("already delivered"))));
+}
+
 TEST_F(grade_export_numbers, unreadable_submissions_get_their_feedback_through_moodle) {
     write_grade_export(request_);
     EXPECT_THAT(in_zip(), HasSubstr("Zoë K_99400_assignfeedback_file_/feedback.md"));

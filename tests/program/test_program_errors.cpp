@@ -163,6 +163,8 @@ TEST(program_errors, wrong_words_are_reported_in_all_programs_and_nothing_is_wri
         expect_failure(bench.dynlab({command, "minr.lua"}), 1, "file not found: minr.lua; did you mean mine.lua?\n");
     for (const std::string command : {"lint", "pack", "check"})
         expect_failure(bench.dynlab({command, "minr.lua"}), 2, "file not found: minr.lua; did you mean mine.lua?\n");
+    expect_failure(bench.dynlab({"hint", "mine.lua"}), 1,
+                   "'mine.lua' is a file; give the number, the name or the folder of a lesson. The lessons are ");
     expect_failure(bench.dynlab({"check", "miner"}), 2, "file or folder not found: miner; did you mean mine?\n");
     expect_failure(bench.dynlab({"lint", "capital"}), 2,
                    "missing from the folder capital, but there is Analysis.lua: rename it");

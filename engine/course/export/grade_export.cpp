@@ -291,9 +291,14 @@ class Outbox {
 
     void moodle() {
         MoodleFeedback feedback;
+        bool delivered = false;
         for (std::size_t i = 0; i < students_.size(); ++i) {
             const MarkedStudent& student = students_[i];
-            if (student.feedback.empty() || !(is_new_[i] || request_.all)) continue;
+            if (student.feedback.empty()) continue;
+            if (!is_new_[i] && !request_.all) {
+                delivered = true;
+                continue;
+            }
             feedback.add(student, student.feedback.filename().string(), read_file(student.feedback));
             if (const fs::path answers = model_answers(); !answers.empty())
                 feedback.add(student, answers.filename().string(), read_file(answers));
@@ -310,9 +315,10 @@ class Outbox {
         const fs::path zip = folder_ / "moodle-feedback.zip";
         if (feedback.empty()) {
             fs::remove(zip);
-            result_.notes.push_back(
-                Message("moodle-feedback.zip was not written, because all feedback was already delivered. To write the "
-                        "file again, use --all"));
+            result_.notes.push_back(delivered ? Message("moodle-feedback.zip was not written, because all feedback was "
+                                                        "already delivered. To write the file again, use --all")
+                                              : Message("moodle-feedback.zip was not written, because no student has "
+                                                        "both feedback and a known participant number"));
         } else {
             feedback.write(zip);
             result_.files.push_back(zip);
