@@ -81,6 +81,8 @@ TEST(course_marks, the_instructor_has_the_last_word_and_gives_a_reason) {
                 HasSubstr("give a reason"));
     EXPECT_THAT(bench.course({"mark", "crane", "group-04", "reviews", "201", "--force", "--reason", "x"}).error_output,
                 HasSubstr("from 0 to 200 percent, but 201 was given"));
+    EXPECT_THAT(bench.course({"mark", "crane", "group-04", "work", "150", "--reason", "x"}).error_output,
+                HasSubstr("150 exceeds 100, the maximum number of points for \"work\""));
     EXPECT_THAT(bench.course({"mark", "crane", "group-04", "voice", "75", "--reason", "x"}).error_output,
                 HasSubstr("crane has no mark \"voice\"; the marks are \"work\" and, for a report, \"reviews\""));
     EXPECT_EQ(bench.dump(), before);

@@ -105,7 +105,7 @@ int set_mark(const CourseArguments& where, const MarkArgs& args) {
     if (*mark.points > max_points && !args.force)
         throw InvalidArgument(
             "{} exceeds {}, the maximum number of points for \"{}\"; correct the mark, or give --force", *mark.points,
-            max_points, mark.item);
+            max_points, !a.is_lab() && mark.item == kWholeItem ? "work" : mark.item);
     if (!a.is_lab() && *mark.points > kMaxPercent)
         throw InvalidArgument("a mark must be a number from 0 to {} percent, but {} was given", kMaxPercent,
                               *mark.points);

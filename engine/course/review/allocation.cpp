@@ -81,7 +81,7 @@ class Allocator {
             throw order_.size() == 1
                 ? InvalidArgument(
                       "the requested number of reviews per group is {}, but only {} group has a report, so the largest "
-                      "possible number is {}. Wait for more first versions, or decrease --reviews of the assignment",
+                      "possible number is {}. Wait for more first versions",
                       problem_.reviews, order_.size(), std::max(0, others))
                 : InvalidArgument(
                       "the requested number of reviews per group is {}, but only {} groups have a report, so the "

@@ -303,7 +303,7 @@ bool waits_for_confirmation(const Costs& costs, std::int64_t late, bool confirme
 }
 
 void refuse_without_reason(const std::string& reason) {
-    if (reason.empty()) throw InvalidArgument("give a reason, which the history shows: --reason \"...\"");
+    if (reason.empty()) throw InvalidArgument("give a reason with --reason \"...\"; the history shows the reason");
 }
 
 Instant due_of_class(const Assignment& a, const std::string& stage) {
