@@ -32,7 +32,8 @@ void read_whole(int pipe, char* bytes, std::size_t size) {
         const ssize_t count = ::read(pipe, bytes, size);
         throw_if_interrupted();
         if (count < 0 && errno == EINTR) continue;
-        if (count <= 0) throw EnvironmentError("the process that ran the script for a slider has exited");
+        if (count <= 0)
+            throw EnvironmentError("the process that ran the script for a slider has exited; run the command again");
         bytes += count;
         size -= static_cast<std::size_t>(count);
     }
@@ -81,7 +82,8 @@ class BranchingRun {
         try {
             record = received_record(own.read_end.get());
         } catch (const EnvironmentError&) {
-            record.error = RecordedError{Message("the process of the script exited before the run was complete")};
+            record.error = RecordedError{
+                Message("the process of the script exited before the run was complete; run the command again")};
         }
         copy.wait();
         return cbor_of(record);

@@ -38,7 +38,8 @@ class HintsReader {
             line.starts_with(begin) ? read_number<int>(trimmed(line.substr(begin.size()))) : std::nullopt;
         if (!question) fail(Message("write the heading of hints as \"# Question 4\", not \"{}\"", trimmed(line)));
         const auto [place, is_new] = hints_.try_emplace(*question);
-        if (!is_new) fail(Message("question {} already has hints", *question));
+        if (!is_new)
+            fail(Message("question {} already has hints; put all hints of the question below one heading", *question));
         stages_ = &place->second;
     }
 
@@ -54,7 +55,9 @@ class HintsReader {
     }
 
     void read_more(const std::string& line) {
-        if (!stages_ || stages_->empty()) fail(Message("this line is indented, but no hint starts before it"));
+        if (!stages_ || stages_->empty())
+            fail(Message(
+                "this line is indented, but no hint starts before it; start a hint with \"1. \", or remove the line"));
         stages_->back() += " " + trimmed(line);
     }
 

@@ -97,7 +97,9 @@ std::pair<std::string, std::uint32_t> requested_plant_variant(const Call& call, 
         const std::string name = call.text(1, "name");
         const PlantVariants& hidden = session.variants[kHiddenDataSets];
         const auto found = hidden.find(name);
-        if (found == hidden.end()) throw InvalidArgument("no hidden data set with true values is named \"{}\"", name);
+        if (found == hidden.end())
+            throw InvalidArgument(
+                "no simulated hidden data set is named \"{}\", and only simulated data have true values", name);
         return *found;
     }
     call.at_most(2);

@@ -25,8 +25,10 @@ Pack pack_folder(const fs::path& folder, const fs::path& file) {
     const TemporaryFolder copy;
     const FolderCopy copied = copy_folder(folder, copy.path(), kMaxPackedBytes, kMaxFiles);
     if (copied.too_large)
-        throw EnvironmentError("{} is too large: a submission can have at most {} files and {} MB", folder.string(),
-                               kMaxFiles, kMaxPackedBytes >> 20);
+        throw EnvironmentError(
+            "{} is too large: a submission can have at most {} files and {} MB. Remove files that the report does not "
+            "need",
+            folder.string(), kMaxFiles, kMaxPackedBytes >> 20);
     take_notebooks(copy.path());
     PackFile made = pack_of(contents_of(copy.path()));
     write_file_atomically(file, made.bytes);

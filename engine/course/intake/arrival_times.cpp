@@ -80,7 +80,8 @@ Instant time_in(const std::string& text) {
     if (!read) read = plain_clock_reading(in_figures(text));
     if (!read)
         throw InvalidArgument("the time must have a form such as \"2026-03-01 18:00\", but \"{}\" was given", text);
-    if (!read->exists) throw InvalidArgument("the time \"{}\" does not exist in the course's time zone", text);
+    if (!read->exists)
+        throw InvalidArgument("the time \"{}\" does not exist in the course's time zone; correct the time", text);
     return read->instant;
 }
 

@@ -191,8 +191,8 @@ void Owners::read_list(const std::filesystem::path& file) {
         for (std::size_t k = 0; k < students_.size() && !owner; ++k)
             if (!named_id.empty() && students_[k].id == named_id) owner = owner_of_[k];
         if (!owner)
-            fail(named_id.empty() ? Message("unknown group \"{}\"", named_group)
-                                  : Message("no student has the id \"{}\"", named_id));
+            fail(named_id.empty() ? Message("unknown group \"{}\"; use a group of the roster", named_group)
+                                  : Message("no student has the id \"{}\"; use an id of the roster", named_id));
         const std::string key = archive_stem(composed(row[*submission])).value_or(composed(row[*submission]));
         if (!list_.emplace(key, *owner).second)
             fail(Message("\"{}\" already has an owner in an earlier row; delete one of the two rows", key));

@@ -264,7 +264,8 @@ std::vector<Criterion> criteria_of(const std::string& text) {
                 "the points of the criterion {} must be a number greater than 0 and at most 1000, but \"{}\" was given",
                 name, points);
         const double max_points = *given;
-        if (!seen.insert(name).second) throw InvalidArgument("the criterion {} occurs twice", name);
+        if (!seen.insert(name).second)
+            throw InvalidArgument("the criterion {} occurs twice; give each criterion a different name", name);
         criteria.push_back({name, max_points});
     }
     if (criteria.empty()) throw InvalidArgument("give at least one criterion, such as clarity:5,methods:10");
