@@ -162,8 +162,8 @@ TEST(check_command, students_without_a_searched_number_are_reported) {
     make_folder(bench);
     bench.write("short.csv", "id,name\ns1,Ada King\n20214711,Bo Ek\n7,Cy Orr\n");
     EXPECT_THAT(bench.dynlab({"check", "mine", "--roster", "short.csv"}).error_output,
-                HasSubstr("short.csv: 2 ids with fewer than 3 letters and digits are not searched for in documents; an "
-                          "example is s1"));
+                HasSubstr("short.csv: 2 ids with fewer than 3 letters and digits are not searched for in documents; "
+                          "an example is s1"));
     bench.write("long.csv", "id,name\n20214711,Bo Ek\n");
     EXPECT_THAT(bench.dynlab({"check", "mine", "--roster", "long.csv"}).error_output, Not(HasSubstr("long.csv")));
 }

@@ -56,9 +56,8 @@ TEST_F(lesson_translation, tasks_without_their_language_are_reported) {
 
 TEST_F(lesson_translation, sentences_that_are_not_translated_are_counted) {
     bench_.write("80_gain/checks.fr.po", "msgid \"The gain\"\nmsgstr \"Le gain\"\n");
-    EXPECT_THAT(faults(),
-                HasSubstr("checks.fr.po: 2 of 3 sentences in checks.lua have no translation; the first is \"The "
-                          "sign is"));
+    EXPECT_THAT(faults(), HasSubstr("checks.fr.po: 2 of 3 sentences in checks.lua have no translation; the first is \""
+                                    "The sign is"));
     bench_.write("80_gain/tasks.fr.lua",
                  "-- ---\n-- title: Un gain\n-- language: fr\n-- ---\n\n-- %% [markdown]\n-- A\n\n"
                  "-- %% [markdown]\n-- B\n");

@@ -39,8 +39,8 @@ KernelConnection read_connection(const std::filesystem::path& file) {
                 file.string(), scheme);
     } catch (const json::exception&) {
         throw EnvironmentError(
-            "{} is not a Jupyter connection file. Do not start the kernel yourself: run jupyter notebook, which starts "
-            "the kernel",
+            "{} is not a Jupyter connection file. Do not start the kernel yourself: run jupyter notebook, "
+            "which starts the kernel",
             file.string());
     }
     return connection;

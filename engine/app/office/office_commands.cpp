@@ -90,8 +90,8 @@ OfficeCommand office_command(const Words& words) {
         if (word.size() > kMaxBytes || word.empty() || terminal_text(word) != word ||
             word.find_first_of("\n\t") != word.npos)
             throw EnvironmentError(
-                "the command was not run: each value must have 1 to {} bytes, without line breaks or other control "
-                "characters",
+                "the command was not run: each value must have 1 to {} bytes, "
+                "without line breaks or other control characters",
                 kMaxBytes);
         if (word.starts_with('-')) {
             const std::string name = name_of_option(word);

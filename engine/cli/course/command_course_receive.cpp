@@ -126,8 +126,8 @@ fs::path file_not_taken(Course& course, const Assignment& assignment, const std:
     if (found.size() != 1)
         throw found.empty()
             ? InvalidArgument(
-                  "{}: none of the files that were not accepted has the name \"{}\"; dynlab course status lists these "
-                  "files",
+                  "{}: none of the files that were not accepted has the name \"{}\"; dynlab course status "
+                  "lists these files",
                   assignment.name, name)
             : InvalidArgument(
                   "{}: {} files that were not accepted have the name \"{}\"; give at least the first 8 digits of the "

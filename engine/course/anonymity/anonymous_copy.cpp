@@ -113,8 +113,8 @@ class CopyingAnonymously {
             result_.not_rebuilt = std::exchange(result_.error_reason, Message());
         else if (result_.error_reason.empty())
             result_.error_reason = Message(
-                "The report cannot be created again, and the submission contains neither report.pdf nor a single other "
-                "PDF.");
+                "The report cannot be created again, "
+                "and the submission contains neither report.pdf nor a single other PDF.");
         return pdf;
     }
 

@@ -82,8 +82,8 @@ int hidden(Call& call) {
 std::string run_of_answers(const Call& call, int index) {
     if (luaL_getmetafield(call.state(), index, kRunOfAnswers) != LUA_TSTRING)
         throw InvalidArgument(
-            "truth requires the name of a hidden data set, or the answers and the name of a data set, as in truth(a, "
-            "\"crane\")");
+            "truth requires the name of a hidden data set, or the answers and the "
+            "name of a data set, as in truth(a, \"crane\")");
     const std::string run = lua_tostring(call.state(), -1);
     lua_pop(call.state(), 1);
     return run;

@@ -133,8 +133,8 @@ int declare_plant(Call& call) {
     const std::string name = options.text("name", "");
     if (!plain_id(name))
         throw InvalidArgument(
-            "the name of a simulated plant and of its data set must consist of letters, digits and _, but \"{}\" was "
-            "given",
+            "the name of a simulated plant and of its data set must consist of letters, digits and _, but \"{}\" "
+            "was given",
             name);
     if (session.plants.contains(name))
         throw InvalidArgument("the simulated plant \"{}\" is declared twice; give each plant a different name", name);

@@ -26,8 +26,8 @@ Pack pack_folder(const fs::path& folder, const fs::path& file) {
     const FolderCopy copied = copy_folder(folder, copy.path(), kMaxPackedBytes, kMaxFiles);
     if (copied.too_large)
         throw EnvironmentError(
-            "{} is too large: a submission can have at most {} files and {} MB. Remove files that the report does not "
-            "need",
+            "{} is too large: a submission can have at most {} files and {} MB. "
+            "Remove files that the report does not need",
             folder.string(), kMaxFiles, kMaxPackedBytes >> 20);
     take_notebooks(copy.path());
     PackFile made = pack_of(contents_of(copy.path()));

@@ -186,8 +186,8 @@ void FolderGrading::prepare(Course& course) {
     if (!request_.again) refuse_differences(then, now, request_);
     if (!request_.roster.empty() && import_roster(course, request_.roster, true).converted)
         complaints_.push_back(
-            Message("{} is not UTF-8, so dynlab read the file as Windows-1252; check names with accents, or save the "
-                    "file as UTF-8",
+            Message("{} is not UTF-8, so dynlab read the file as Windows-1252; check names with accents, "
+                    "or save the file as UTF-8",
                     request_.roster));
     set_assignment(course, assignment_, assignments_of(course).empty() ? "" : "dynlab grade");
     assignment_ = assignment_named(course, assignment_.name);
