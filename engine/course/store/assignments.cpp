@@ -17,8 +17,8 @@ void refuse_odd_name(const std::string& what, const std::string& name) {
                          std::string::npos;
     if (odd)
         throw InvalidArgument(
-            "{} \"{}\" must consist of at most 60 letters, digits, hyphens, underscores and periods, and must not "
-            "start with a hyphen or a period; an example is crane-report",
+            "{} \"{}\" must consist of at most 60 letters, digits, hyphens, underscores and periods. The first "
+            "character must be a letter, a digit or an underscore, as in crane-report",
             what, name);
 }
 
