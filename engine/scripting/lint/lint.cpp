@@ -16,7 +16,6 @@
 #include "scripting/interpreter/runtime.h"
 #include "scripting/lint/function_forms.h"
 #include "scripting/lint/script_walk.h"
-#include "scripting/runtime/earlier_names.h"
 #include "scripting/runtime/errors.h"
 #include "scripting/runtime/shown_expressions.h"
 #include "scripting/source/lua_reader.h"

@@ -1,10 +1,21 @@
 #include "scripting/runtime/function_entry.h"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <utility>
 
 namespace dynlab::inline scripting {
+namespace {
+
+struct RenamedFunction {
+    std::string_view earlier, present;
+};
+constexpr std::array kRenamedFunctions = {
+    RenamedFunction{"guess", "predict_first"}, RenamedFunction{"outcome", "reveal"}, RenamedFunction{"rig", "plant"},
+    RenamedFunction{"rig_truth", "true_model"}, RenamedFunction{"declare_rig", "declare_plant"}};
+
+}  // namespace
 
 std::string signature_text(const FunctionEntry& function) {
     constexpr std::string_view kPlace = "{options}";
@@ -18,6 +29,16 @@ std::string signature_text(const FunctionEntry& function) {
     for (std::size_t at = text.find(kPlace); at != text.npos; at = text.find(kPlace))
         text.replace(at, kPlace.size(), "{" + list + "}");
     return text;
+}
+
+std::string_view present_name(std::string_view earlier) {
+    const auto found = std::ranges::find(kRenamedFunctions, earlier, &RenamedFunction::earlier);
+    return found == kRenamedFunctions.end() ? std::string_view() : found->present;
+}
+
+Message renamed(std::string_view earlier) {
+    return Message("{} is now called {}; the earlier name works until the end of 2027", std::string(earlier),
+                   std::string(present_name(earlier)));
 }
 
 std::string other_spelling(std::string name) {

@@ -2,7 +2,9 @@
 #include <lua.hpp>
 #include <span>
 #include <string>
+#include <string_view>
 
+#include "base/message.h"
 #include "scripting/runtime/option_entry.h"
 
 namespace dynlab::inline scripting {
@@ -20,6 +22,13 @@ struct FunctionEntry {
 
 /// "lsim(G, u, t_or_Ts, {hold =, x0 =}) -> y"; of more than four options the first three.
 std::string signature_text(const FunctionEntry& function);
+
+/// The present name of a function that was renamed; empty for every other name. Scripts with the earlier names run
+/// until the end of 2027.
+std::string_view present_name(std::string_view earlier);
+
+/// The note for a script with an earlier name.
+Message renamed(std::string_view earlier);
 
 using FunctionEntries = std::span<const FunctionEntry>;
 

@@ -15,7 +15,6 @@
 #include "numerics/error.h"
 #include "platform/spelling.h"
 #include "platform/text/small_letters.h"
-#include "scripting/runtime/earlier_names.h"
 #include "scripting/runtime/help_layout.h"
 #include "scripting/runtime/matlab_hints.h"
 

@@ -8,7 +8,6 @@
 #include "base/reader.h"
 #include "platform/spelling.h"
 #include "scripting/runtime/context.h"
-#include "scripting/runtime/earlier_names.h"
 #include "scripting/runtime/errors.h"
 #include "scripting/runtime/matlab_hints.h"
 #include "scripting/runtime/prompt_variables.h"
