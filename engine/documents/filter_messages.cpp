@@ -262,13 +262,10 @@ class Sentences {
 
     static Message unknown_class(const std::string& code, const std::string& name, const std::string& text) {
         if (code == "division-class") {
-            if (name.empty())
-                return Message(
-                    "a ::: block needs a class: table, text, note, warning, exercise, columns, column, block-diagram, "
-                    "choice, drawing, references, measures or pagebreak");
             static const std::vector<std::string> kKnown = {
                 "table",  "text",          "cells",  "note",    "warning",    "exercise", "columns",
                 "column", "block-diagram", "choice", "drawing", "references", "measures", "pagebreak"};
+            if (name.empty()) return Message("a ::: block needs a class; the classes are {}", listed(kKnown));
             const auto near = nearest_word(name, kKnown);
             return near ? Message("unknown block class \"{}\"; did you mean \"{}\"? The classes are {}", name, *near,
                                   listed(kKnown))

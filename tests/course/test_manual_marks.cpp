@@ -44,6 +44,12 @@ class MarkedClass {
     void write(const std::string& rows) const {
         write_file_atomically(out() / kMarksFile, "who,check,points,reason\n" + rows);
     }
+    /// As `dynlab course mark` does.
+    void give(const std::string& group, const std::string& check, double points) {
+        GivenMark mark;
+        mark.group = group_named(course_, group).id, mark.item = check, mark.points = points;
+        give_mark(course_, lab(), mark, CourseClock::now());
+    }
     /// The complaints about rows that cannot be taken, a line each. The checks x and y have 4 and 6 points.
     std::string join(double most_of_y = 6) {
         std::string text;
@@ -104,6 +110,16 @@ TEST(manual_marks, of_doubtful_rows_are_complained_of_with_their_line) {
     EXPECT_THAT(marked.join(7), Not(HasSubstr("line 6")));
     EXPECT_EQ(marked.given("Anh_901_assignsubmission_file_"), "y 7 ");
     EXPECT_THAT(marked.join(), Not(HasSubstr("line 6"))) << "the course has it already";
+}
+
+// oracle: the checks of the class; before the first grading the course does not know them
+TEST(manual_marks, of_the_course_for_an_unknown_check_are_complained_of) {
+    MarkedClass marked;
+    marked.give("group-02", "z", 2);
+    marked.give("group-02", "x", 3);
+    EXPECT_THAT(marked.join(), HasSubstr("\"group_2_final\" has for the unknown check \"z\" does not count"));
+    EXPECT_EQ(marked.given("group_2_final"), "x 3 ");
+    EXPECT_THAT(read_text(marked.out() / kMarksFile), Not(HasSubstr(",z,")));
 }
 
 // oracle: the maximum of both checks

@@ -240,8 +240,8 @@ void add_settings(CLI::App& command, AssignmentArguments& args) {
     command
         .add_option(
             "--costs", args.costs,
-            "Penalties in percentage points: late-day:10 of the work for each day or part of a day, late-most:50 in "
-            "total, missing-final:30; late-review:5,missing-review:25 of the reviews. Default: none.")
+            "Penalties in percentage points: of the work late-day:10 for each day or part of a day, late-most:50 as "
+            "their maximum, missing-final:30; of the reviews late-review:5,missing-review:25. Default: none.")
         ->type_name("NAME:POINTS,...");
     command
         .add_option("--final-weight", args.final_weight,

@@ -168,10 +168,17 @@ std::vector<Message> join_marks_file(Course& course, const Assignment& assignmen
             file.fill(row.who, row.check, mark ? mark->points : std::nullopt, mark ? mark->reason : "");
     }
     std::vector<MarksFile::Row> missing;
-    for (const GivenMark& mark : in_force)
-        if (mark.student.empty())
-            for (const std::string& name : work.names_of(mark.group, mark.version))
+    for (const GivenMark& mark : in_force) {
+        if (!mark.student.empty()) continue;
+        for (const std::string& name : work.names_of(mark.group, mark.version))
+            if (max_points.contains(mark.item))
                 missing.push_back({0, name, mark.item, mark.points, mark.reason});
+            else
+                complaints.push_back(
+                    Message("the mark that \"{}\" has for the unknown check \"{}\" does not count; "
+                            "withdraw it with dynlab course withdraw",
+                            name, mark.item));
+    }
     file.add(missing);
     Transaction joined(course.database());
     course.save_entry(joined_setting(assignment), std::to_string(last_now));

@@ -27,7 +27,7 @@ void check_arguments(double x, double degrees) {
 
 void check_probability(double probability) {
     if (!(probability > 0 && probability < 1))
-        throw InvalidArgument("A probability must be between 0 and 1, but it is {}", probability);
+        throw InvalidArgument("the probability must be between 0 and 1, but {} was given", probability);
 }
 
 constexpr double kNearCenter = 0.1;

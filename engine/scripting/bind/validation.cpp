@@ -242,7 +242,7 @@ int measure_fit(Call& call) {
 
 constexpr FunctionEntry kValidationFunctions[] = {
     {"test_your_model", "step tests", "test_your_model(G, data, {options}) -> fig",
-     "Compare the measured response with that of a model", guarded<test_model>, kCompareTables, kTestArguments},
+     "Compare the measured response with the response of a model", guarded<test_model>, kCompareTables, kTestArguments},
     {"compare", "validation", "compare(data, G1, G2, ..., {options}) -> fig",
      "Compare measured with simulated or predicted outputs", guarded<compare_models>, kCompareTables,
      kCompareArguments},
