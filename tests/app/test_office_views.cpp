@@ -261,8 +261,9 @@ TEST(office_views, a_mark_that_was_not_seen_is_not_replaced) {
     EXPECT_EQ(course.run({"mark", "lab4", "group-002", "q3", "1", "--reason", "sign is wrong"}).exit_code, 0);
     const ChildResult refused = mark("4", first);
     EXPECT_EQ(refused.exit_code, 1);
-    EXPECT_THAT(refused.error_output, AllOf(HasSubstr("the mark was not changed"), HasSubstr("has 1 for q3"),
-                                            HasSubstr("sign is wrong"), Not(HasSubstr("group-002"))));
+    EXPECT_THAT(refused.error_output,
+                AllOf(HasSubstr("the mark was not changed"), HasSubstr("already has the mark 1 for q3"),
+                      HasSubstr("sign is wrong"), Not(HasSubstr("group-002"))));
     EXPECT_EQ(entry()["points"], 1);
     const int second = entry()["id"];
     EXPECT_EQ(

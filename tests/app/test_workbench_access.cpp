@@ -150,7 +150,7 @@ TEST_F(workbench_access, a_name_that_cannot_be_is_refused_in_words) {
     const std::string before = script();
     for (const auto& [name, words] :
          {std::pair("best model", "letters, digits"), std::pair("end", "Lua keyword"),
-          std::pair("G1", "is already used in the script"), std::pair("bode", "A function has this name")}) {
+          std::pair("G1", "is already used in the script"), std::pair("bode", "the name of a function")}) {
         rename(name);
         EXPECT_TRUE(browser.becomes_true("document.getElementById('name-trouble').textContent.includes('" +
                                          std::string(words) + "')"))
@@ -165,7 +165,7 @@ TEST_F(workbench_access, a_name_that_cannot_be_is_refused_in_words) {
 TEST_F(workbench_access, help_is_formatted_and_its_text_is_no_markup) {
     Browser browser;
     const auto program = open(browser);
-    for (const char* name : {"srivc", "advice", "tfsrivc"}) {
+    for (const char* name : {"srivc", "advice", "sign"}) {
         browser.evaluate("return import('./bench_help.js').then(({help}) => help('" + std::string(name) + "'))");
         EXPECT_EQ(browser.evaluate("return /`|^#|\\n- |\\*\\*/.test([...document.querySelectorAll('#help-text > "
                                    ":not(pre)')].map((one) => one.textContent).join('\\n'))"),
@@ -174,7 +174,7 @@ TEST_F(workbench_access, help_is_formatted_and_its_text_is_no_markup) {
         EXPECT_EQ(
             browser.evaluate("return ['h3', 'p', 'table'].map((kind) => document.querySelectorAll('#help-text ' + "
                              "kind).length > 0)"),
-            name == std::string("tfsrivc") ? "[true,true,false]" : "[true,true,true]");
+            name == std::string("sign") ? "[true,true,false]" : "[true,true,true]");
         browser.evaluate("document.getElementById('page-of-help').close()");
     }
     EXPECT_EQ(browser.evaluate(

@@ -201,7 +201,7 @@ TEST(instructor_guides, a_course_with_reviews_and_its_corrections_run_as_printed
             command += " --isolation process";
         const ChildResult result =
             in_shell(work, std::filesystem::exists(work.path("signals")) ? "signals" : "", command);
-        const bool findings = command.find(" findings ") != std::string::npos;  // they are there: rules are broken
+        const bool findings = command.find(" issues ") != std::string::npos;  // they are there: rules are broken
         EXPECT_EQ(result.exit_code, findings ? 1 : 0) << command << '\n' << result.error_output << result.output;
         return result;
     };

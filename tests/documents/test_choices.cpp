@@ -73,7 +73,7 @@ TEST_F(choices, that_are_not_whole_are_reported_with_their_line) {
     const auto reported = [&](const std::string& body) { return refusal("Text.\n\n::: choice\n" + body + ":::\n"); };
     EXPECT_THAT(reported("Why?\n\n- [ ] a\n\n  No.\n- [ ] b\n\n  No.\n"), HasSubstr("a correct option"));
     EXPECT_THAT(reported("Why?\n\n- [x] a\n- [ ] b\n"),
-                AllOf(HasSubstr(":4: "), HasSubstr("explains why the option is correct or wrong")));
+                AllOf(HasSubstr(":4: "), HasSubstr("must explain why the option is correct or wrong")));
     EXPECT_THAT(reported("Why?\n\n- a\n\n  No.\n- [x] b\n\n  Yes.\n"),
                 HasSubstr("each option must start with [x] or [ ]"));
     EXPECT_THAT(reported("Why?\n"), HasSubstr("a choice must consist of a question and a list"));

@@ -58,7 +58,7 @@ addWords({
   no_study: tr("No study yet: open \"Known system\" and start a study."),
   no_reading: tr("No model determined by hand yet: open \"Read by hand\" and choose a shape. The data must be a step response."),
   no_second: tr("No validation data: open data and use them for validation only."),
-  no_delays: tr("The delay of the last selected model was not estimated. Estimate a model whose delay is set to 'estimated'."), ofRecord: tr("of the data {}"),
+  no_delays: tr("The delay of the last selected model was not estimated. Estimate a model with the delay set to 'estimated'."), ofRecord: tr("of the data {}"),
   without: tr("without {}"), notAlike: tr("The validation data are not preprocessed like the estimation data."),
   prepareAlike: tr("Apply the same preprocessing"), levelStep: tr("Level"), trendStep: tr("Trend"), filterStep: tr("Filter"),
   resampleStep: tr("Resample"), outliersStep: tr("Outliers"), rangeStep: tr("Range"),

@@ -44,7 +44,8 @@ TEST(distributions, chi_squared_refuses_what_has_no_meaning) {
     EXPECT_THROW(chi_squared_quantile(0.5, -1), InvalidArgument);
     EXPECT_THROW(normal_half_width(0), InvalidArgument);
     EXPECT_THROW(normal_half_width(1), InvalidArgument);
-    EXPECT_EQ(thrown_message([] { normal_half_width(1.5); }), "the probability must be between 0 and 1, but 1.5 was given");
+    EXPECT_EQ(thrown_message([] { normal_half_width(1.5); }),
+              "the probability must be between 0 and 1, but 1.5 was given");
     EXPECT_EQ(thrown_message([] { chi_squared_upper_tail(2, 0); }),
               "The chi-squared distribution needs a numeric value and positive degrees of freedom, but got 2 with 0 "
               "degrees of freedom");
